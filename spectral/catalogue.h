@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// The shipped spectra, by name, and spectrum files of the user. A name stands for one quantity ("Au" for an n + ik,
+// "D65" for a relative spectral power); data/README.md lists file, quantity, unit, source and licence of each.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "spectral/complex_index.h"
+#include "spectral/spectral_function.h"
+
+namespace iride {
+
+enum class SpectralQuantity { power, radiance, reflectance, complex_index, matching_functions, transmittance };
+
+// A spectrum file as read: its columns share one wavelength column; a dispersion formula has no columns.
+struct SpectrumFile {
+    std::filesystem::path path;
+    std::string quantity, unit, source;                // header lines; empty if the format has none
+    std::vector<double> wavelength_nm;                 // strictly increasing
+    std::map<std::string, std::vector<double>> column; // e.g. "n", "k", "power", "white", "x", "y", "z"
+    std::vector<std::string> column_order;             // as in the file
+    std::vector<DispersionShape> formula;              // zero or one
+};
+
+// Read a spectrum file: our CSV (`# key: value` header), any comma separated file with a header row, two-column .spd or
+// .txt, a refractiveindex.info CSV ("wl,n" and "wl,k" blocks in micrometres) or YAML (tabulated n, k, nk; formulas 1, 2
+// and 4) as it is pasted. Throws InputError with file:line for anything else: not a number, NaN, unsorted or duplicate
+// wavelengths, a missing column, an empty file, a file larger than 64 MiB.
+SpectrumFile read_spectrum_file(std::filesystem::path const& path);
+
+// Folder of the shipped data: $IRIDE_DATA if set, else the source tree's data/.
+std::filesystem::path data_folder();
+
+// Every name of the catalogue of the given quantity, for messages and listings.
+std::vector<std::string> catalogue_names(SpectralQuantity quantity);
+bool in_catalogue(std::string const& name);
+
+// By catalogue name ("Au", "Au:McPeak", "N-BK7", "D65", "cornell:white") or, if `name` is no catalogue name, by path
+// (relative to `folder`), a column of a file with several as "file.csv:column". Throws InputError: unknown name (with
+// the nearest), wrong quantity, missing file.
+ComplexIndex load_complex_index(std::string const& name, std::filesystem::path const& folder = {});
+SpectralFunction load_spectrum(std::string const& name, SpectralQuantity quantity,
+                               std::filesystem::path const& folder = {});
+
+}  // namespace iride
