@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// A standard observer: three colour-matching functions. XYZ of a spectral radiance L is
+//   X = (integral of L xbar) / (integral of ybar), and so on, over the observer's whole domain.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "colour/xyz.h"
+#include "spectral/spectral_function.h"
+
+namespace iride {
+
+struct Observer {
+    std::string name;
+    SpectralFunction xbar, ybar, zbar;  // zero outside their table
+    double ybar_integral;               // [nm], over the table's domain
+
+    Xyz at(double wavelength_nm) const { return {xbar.at(wavelength_nm), ybar.at(wavelength_nm), zbar.at(wavelength_nm)}; }
+    // XYZ of a spectral radiance, by exact integration of the two piecewise linear functions.
+    Xyz integrate(SpectralFunction const& radiance) const;
+};
+
+// By name: "cie1931_2deg" (later others). Throws InputError for an unknown one. Read once, kept for the program's life.
+Observer const& observer(std::string const& name);
+inline Observer const& cie1931_2deg() { return observer("cie1931_2deg"); }
+
+// The factor that makes (integral of L ybar) / (integral of ybar) equal to `luminance`.
+SpectralFunction luminance_weighted(SpectralFunction const& radiance, double luminance, Observer const& observer);
+
+// Luminance of Y = 1 in cd m^-2: 683 lm/W times the integral of ybar. (K_m of ISO/CIE 23539, rounded as CIE does.)
+double luminance_of_unit_Y(Observer const& observer);
+
+}  // namespace iride

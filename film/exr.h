@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// OpenEXR files out and in. Written whole or not at all.
+//
+// Channels: R G B (or X Y Z) in the output space; S0.550,000000nm ... for bands, the layout of [Fichet 2021];
+// variance.X variance.Y variance.Z: variance of the mean, of XYZ at exposure 1, always float.
+// Attributes: chromaticities (typed), whiteLuminance [cd m^-2 of RGB (1,1,1), or of Y = 1], colorInteropID, sceneWhite
+// (x, y that was adapted to the file's white), spectralLayoutVersion and emissiveUnits when there are bands, and under
+// "iride:" version, sceneHash, scene, integrator, spp, seed, observer, exposure and rejected.* counts.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "colour/rgb_space.h"
+#include "film/film.h"
+#include "film/image.h"
+
+namespace iride {
+
+struct ExrSettings {
+    std::string colourspace = "ACEScg";
+    Chromaticity scene_white{0.3127, 0.3290};
+    double exposure = 1;
+    bool half = false;
+    std::string scene, scene_hash, integrator;
+    std::uint64_t seed = 0;
+};
+
+// The film's XYZ through the output space, times the exposure.
+Image<std::array<float, 3>> to_image(Film const& film, OutputSpace const& space, double exposure);
+
+void write_exr(Film const& film, ExrSettings const& settings, std::filesystem::path const& path);
+
+// A picture read back as XYZ: from its X Y Z channels, or R G B by its own chromaticities (linear Rec.709 if it names
+// none) and, if it has a sceneWhite, with the adaptation undone. `variance` is empty unless the file has it (and then
+// refers to exposure 1). Any OpenEXR file; throws InputError if it is missing, truncated, no EXR, deep or has no colour.
+struct XyzPicture {
+    Image<Xyz> xyz, variance;
+    double exposure = 1;
+    std::vector<std::pair<double, Image<float>>> bands;  // centre [nm], radiance
+};
+XyzPicture read_exr_as_xyz(std::filesystem::path const& path);
+
+}  // namespace iride

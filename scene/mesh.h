@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// A triangle mesh in memory, and the two file formats it may come from.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "base/vector.h"
+
+namespace iride {
+
+struct Mesh {
+    std::vector<Vector> position;                         // [vertex], in the file's unit
+    std::vector<Vector> normal;                           // [vertex] unit, or empty
+    std::vector<Vector2> uv;                              // [vertex], or empty
+    std::vector<std::array<std::uint32_t, 3>> triangle;   // [triangle] vertex numbers, counter-clockwise seen from the front
+};
+
+// Read .ply (ascii or binary, either byte order) or .obj; polygons are split into fans, OBJ's separate normal and texture
+// indices are joined into vertices. Throws InputError (file, line or byte, what was found) for: a missing, empty or
+// truncated file, an unknown extension, NaN or infinite coordinates, indices out of range, no triangle at all, more
+// elements announced than the file can hold.
+Mesh read_mesh(std::filesystem::path const& path);
+
+// The same checks on a mesh that came from elsewhere: finite positions, indices in range, at least one triangle.
+void check_mesh(Mesh const& mesh, std::filesystem::path const& path);
+
+}  // namespace iride
