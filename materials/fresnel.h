@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// Exact Fresnel equations for a plane boundary between a transparent medium and one of complex index, per lane.
+//   eta + i kappa   index of the far medium over that of the near one
+//   c, s            cosine and sine of the angle of incidence
+//   a + i b         = sqrt((eta + i kappa)^2 - s^2), the far medium's normal component of the wave vector
+//   Rs = |(c - (a + ib)) / (c + (a + ib))|^2
+//   Rp = Rs |((ac - s^2) + ibc) / ((ac + s^2) + ibc)|^2
+// Written as sums of squares: no cancellation at Brewster's angle, at grazing or for kappa = 0, where it is the
+// dielectric formula and, beyond the critical angle (a = 0), exactly 1. [Born 1999, sec. 14.2]
+#pragma once
+
+#include <limits>
+
+#include "spectral/sampled.h"
+
+namespace iride {
+
+// Reflectances of power for light polarised perpendicular (s) and parallel (p) to the plane of incidence.
+template <class Number>
+struct FresnelReflectance {
+    Number s, p;
+    Number unpolarised() const { return (s + p) / 2; }
+};
+
+// Real and imaginary part of sqrt((eta + i kappa)^2 - s^2), both >= 0. Whichever of the two would suffer from
+// cancellation is found from their product, a b = eta kappa.
+template <class Real>
+void refracted_normal_component(Real eta, Real kappa, Real sine2, Real& a, Real& b) {
+    Real const sine = std::sqrt(sine2);
+    Real const difference = (eta - sine) * (eta + sine) - kappa * kappa;  // a^2 - b^2
+    Real const product = eta * kappa;                                     // a b
+    Real const modulus = std::sqrt(difference * difference + 4 * product * product);
+    Real const major = std::sqrt(Real(0.5) * (modulus + std::abs(difference)));
+    Real const minor = major > 0 ? product / major : Real(0);
+    a = difference >= 0 ? major : minor;
+    b = difference >= 0 ? minor : major;
+}
+
+// One wavelength, any real type: the reference for the lanes, and what colorimetry integrates. cosine in [0, 1].
+template <class Real>
+FresnelReflectance<Real> fresnel(Real cosine, Real eta, Real kappa) {
+    Real const sine2 = std::max(Real(0), (1 - cosine) * (1 + cosine));
+    Real a, b;
+    refracted_normal_component(eta, kappa, sine2, a, b);
+    Real const b2 = b * b, bc2 = b2 * cosine * cosine, ac = a * cosine;
+    auto const sq = [](Real x) { return x * x; };
+    Real const s = (sq(a - cosine) + b2) / (sq(a + cosine) + b2);
+    // At c = 0 and s^2 = 1 the second factor is 1 by itself; at c = 1, s = 0 it is 1 unless a = b = 0.
+    Real const p_over_s = (sq(ac - sine2) + bc2) / std::max(sq(ac + sine2) + bc2, std::numeric_limits<Real>::min());
+    return {s, s * p_over_s};
+}
+
+// All lanes at once. One loop, so that it is compiled to SIMD instructions. [dimensionless]
+inline Lanes fresnel_unpolarised(float cosine, Lanes eta, Lanes kappa) {
+    Lanes result;
+    for (int i = 0; i < lane_count; ++i) result.lane[i] = fresnel(cosine, eta.lane[i], kappa.lane[i]).unpolarised();
+    return result;
+}
+
+}  // namespace iride
