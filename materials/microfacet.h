@@ -20,7 +20,8 @@ struct Ggx {
     }
 
     float lambda(Direction const& w) const {
-        float const slope2 = square(alpha) * (square(w.x()) + square(w.y())) / square(w.z());
+        constexpr float steepest = 1e30f;  // keeps the quotient below finite for w in the surface
+        float const slope2 = std::min(steepest, square(alpha) * (square(w.x()) + square(w.y())) / square(w.z()));
         return slope2 / (2 * (std::sqrt(1 + slope2) + 1));  // (sqrt(1 + s) - 1) / 2 without cancellation
     }
     float masking(Direction const& w) const { return 1 / (1 + lambda(w)); }

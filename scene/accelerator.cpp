@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/accelerator.h"
+
+#include <embree3/rtcore.h>
+#include <x86intrin.h>
+
+#include <limits>
+#include <stdexcept>
+
+#include "scene/frustum_intersection.h"
+
+namespace iride {
+
+std::uint64_t processor_ticks() { return __rdtsc(); }
+
+void RayStatistics::add(RayStatistics const& other) {
+    closest_rays += other.closest_rays;
+    shadow_rays += other.shadow_rays;
+    traced_ticks += other.traced_ticks;
+}
+
+namespace {
+
+// Adds its lifetime to the ticks spent in Embree, on timed paths only.
+class Stopwatch {
+  public:
+    explicit Stopwatch(RayStatistics& s) : statistics_(s), start_(s.timed ? processor_ticks() : 0) {}
+    ~Stopwatch() {
+        if (statistics_.timed) statistics_.traced_ticks += processor_ticks() - start_;
+    }
+
+  private:
+    RayStatistics& statistics_;
+    std::uint64_t start_;
+};
+
+// Embree reads vertices in 16-byte loads: one float of padding behind the last.
+void copy_vertices(RTCGeometry geometry, Vector const* vertices, std::size_t count) {
+    auto* const buffer = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
+                                                                     RTC_FORMAT_FLOAT3, 3 * sizeof(float), count));
+    for (std::size_t i = 0; i < count; ++i) Eigen::Map<Vector>(buffer + 3 * i) = vertices[i];
+}
+
+RTCGeometry make_geometry(RTCDevice device, Sphere const& s) {
+    RTCGeometry const g = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_SPHERE_POINT);
+    auto* const v = static_cast<float*>(
+        rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, 4 * sizeof(float), 1));
+    Eigen::Map<Vector>{v} = s.centre;
+    v[3] = s.radius;
+    return g;
+}
+
+RTCGeometry make_geometry(RTCDevice device, Quad const& q) {
+    RTCGeometry const g = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_QUAD);
+    copy_vertices(g, q.corner.data(), 4);
+    auto* const index = static_cast<std::uint32_t*>(
+        rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4, 4 * sizeof(std::uint32_t), 1));
+    for (std::uint32_t i = 0; i < 4; ++i) index[i] = i;
+    return g;
+}
+
+RTCGeometry make_geometry(RTCDevice device, Disc const& d) {
+    RTCGeometry const g = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_ORIENTED_DISC_POINT);
+    auto* const v = static_cast<float*>(
+        rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, 4 * sizeof(float), 1));
+    Eigen::Map<Vector>{v} = d.centre;
+    v[3] = d.radius;
+    auto* const n = static_cast<float*>(
+        rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_NORMAL, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), 1));
+    Eigen::Map<Vector>{n} = d.normal;
+    return g;
+}
+
+RTCGeometry make_geometry(RTCDevice device, MeshShape const& m) {
+    RTCGeometry const g = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    copy_vertices(g, m.mesh->position.data(), m.mesh->position.size());
+    std::size_t const count = m.mesh->triangle.size();
+    auto* const index = static_cast<std::uint32_t*>(
+        rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), count));
+    for (std::size_t i = 0; i < count; ++i) std::copy_n(m.mesh->triangle[i].data(), 3, index + 3 * i);
+    return g;
+}
+
+void frustum_bounds(RTCBoundsFunctionArguments const* a) {
+    auto const& f = std::get<Frustum>(static_cast<Shape const*>(a->geometryUserPtr)->geometry);
+    Vector const reach = Vector::Constant(std::max(f.radius, f.top_radius) * 1.0001f);  // covers rounding
+    Vector const low = f.from.cwiseMin(f.to) - reach, high = f.from.cwiseMax(f.to) + reach;
+    *a->bounds_o = {low.x(), low.y(), low.z(), 0, high.x(), high.y(), high.z(), 0};
+}
+
+void frustum_intersect(RTCIntersectFunctionNArguments const* a) {
+    if (!a->valid[0]) return;
+    auto& rh = *reinterpret_cast<RTCRayHit*>(a->rayhit);
+    auto const& f = std::get<Frustum>(static_cast<Shape const*>(a->geometryUserPtr)->geometry);
+    Ray const ray{{rh.ray.org_x, rh.ray.org_y, rh.ray.org_z}, {rh.ray.dir_x, rh.ray.dir_y, rh.ray.dir_z},
+                  rh.ray.tnear, rh.ray.tfar};
+    std::optional<float> const t = intersect(f, ray);
+    if (!t) return;
+    rh.ray.tfar = *t;
+    rh.hit.geomID = a->geomID;
+    rh.hit.primID = a->primID;
+    rh.hit.instID[0] = a->context->instID[0];
+}
+
+void frustum_occluded(RTCOccludedFunctionNArguments const* a) {
+    if (!a->valid[0]) return;
+    auto& r = *reinterpret_cast<RTCRay*>(a->ray);
+    auto const& f = std::get<Frustum>(static_cast<Shape const*>(a->geometryUserPtr)->geometry);
+    if (intersect(f, {{r.org_x, r.org_y, r.org_z}, {r.dir_x, r.dir_y, r.dir_z}, r.tnear, r.tfar}))
+        r.tfar = -infinity;
+}
+
+RTCGeometry make_geometry(RTCDevice device, Frustum const&) {
+    RTCGeometry const g = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
+    rtcSetGeometryUserPrimitiveCount(g, 1);
+    rtcSetGeometryBoundsFunction(g, frustum_bounds, nullptr);
+    rtcSetGeometryIntersectFunction(g, frustum_intersect);
+    rtcSetGeometryOccludedFunction(g, frustum_occluded);
+    return g;
+}
+
+// Position, normals and uv of a hit, in the coordinates of the shape. `on_ray` is the point along the ray: shapes with
+// a closed form pull it onto the surface, which leaves an error of a few units in the last place.
+SurfacePoint surface_point(Sphere const& s, Vector const& on_ray, RTCHit const&) {
+    Direction const n = (on_ray - s.centre).normalized();
+    return {s.centre + s.radius * n, n, Frame::around(n)};
+}
+SurfacePoint surface_point(Quad const& q, Vector const&, RTCHit const& hit) {
+    // Embree's quads are parametrised bilinearly over (0 1 2 3).
+    float const u = hit.u, v = hit.v;
+    Vector const p = (1 - u) * (1 - v) * q.corner[0] + u * (1 - v) * q.corner[1] + u * v * q.corner[2] +
+                     (1 - u) * v * q.corner[3];
+    Direction const n = q.normal();
+    return {p, n, Frame::around(n), {u, v}};
+}
+SurfacePoint surface_point(Disc const& d, Vector const& on_ray, RTCHit const&) {
+    return {on_ray - d.normal * d.normal.dot(on_ray - d.centre), d.normal, Frame::around(d.normal)};
+}
+SurfacePoint surface_point(Frustum const& f, Vector const& on_ray, RTCHit const&) {
+    auto const [position, normal] = project(f, on_ray);
+    return {position, normal, Frame::around(normal)};
+}
+SurfacePoint surface_point(MeshShape const& m, Vector const&, RTCHit const& hit) {
+    auto const& t = m.mesh->triangle[hit.primID];
+    Vector const &a = m.mesh->position[t[0]], &b = m.mesh->position[t[1]], &c = m.mesh->position[t[2]];
+    float const u = hit.u, v = hit.v, w = 1 - u - v;
+    Direction const n = (b - a).cross(c - a).normalized();
+    SurfacePoint point{w * a + u * b + v * c, n, {}};
+    Direction shading = n;
+    if (m.smooth && !m.mesh->normal.empty()) {
+        auto const& N = m.mesh->normal;
+        shading = (w * N[t[0]] + u * N[t[1]] + v * N[t[2]]).normalized();
+        if (shading.dot(n) < 0) shading = -shading;  // the winding decides which side is the front
+    }
+    point.frame = Frame::around(shading);
+    if (!m.mesh->uv.empty()) point.uv = w * m.mesh->uv[t[0]] + u * m.mesh->uv[t[1]] + v * m.mesh->uv[t[2]];
+    return point;
+}
+
+void flip(SurfacePoint& p) {
+    p.geometric_normal = -p.geometric_normal;
+    p.frame = Frame::around(-p.frame.normal);
+}
+
+struct PlacedObject {
+    ObjectGeometry const* object;
+    Eigen::Affine3f to_world, to_object;
+};
+
+}  // namespace
+
+struct Accelerator::Implementation {
+    RTCDevice device = rtcNewDevice(nullptr);
+    RTCScene scene = nullptr;
+    std::vector<RTCScene> object_scenes;
+    std::vector<Shape> const* shapes = nullptr;
+    std::vector<PlacedObject> instances;
+    unsigned first_instance = 0;  // geometry ids below are shapes, from here on instances
+
+    ~Implementation() {
+        for (RTCScene s : object_scenes) rtcReleaseScene(s);
+        if (scene) rtcReleaseScene(scene);
+        rtcReleaseDevice(device);
+    }
+
+    RTCScene new_scene() const {
+        RTCScene const s = rtcNewScene(device);
+        rtcSetSceneFlags(s, RTC_SCENE_FLAG_ROBUST);
+        rtcSetSceneBuildQuality(s, RTC_BUILD_QUALITY_HIGH);
+        return s;
+    }
+
+    void attach(RTCScene s, RTCGeometry geometry) const {
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometry(s, geometry);
+        rtcReleaseGeometry(geometry);
+    }
+
+    void attach_shapes(RTCScene s, std::vector<Shape> const& all) const {
+        for (Shape const& shape : all) {
+            RTCGeometry const g =
+                std::visit([&](auto const& geometry) { return make_geometry(device, geometry); }, shape.geometry);
+            rtcSetGeometryUserData(g, const_cast<Shape*>(&shape));
+            attach(s, g);
+        }
+    }
+};
+
+Accelerator::Accelerator(std::vector<Shape> const& shapes, std::vector<ObjectGeometry> const& objects,
+                         std::vector<InstancePlacement> const& instances)
+    : implementation_(std::make_unique<Implementation>()) {
+    Implementation& self = *implementation_;
+    self.shapes = &shapes;
+    for (ObjectGeometry const& object : objects) {
+        RTCScene const s = self.new_scene();
+        self.attach_shapes(s, object.shapes);
+        rtcCommitScene(s);
+        self.object_scenes.push_back(s);
+    }
+    self.scene = self.new_scene();
+    self.attach_shapes(self.scene, shapes);
+    self.first_instance = static_cast<unsigned>(shapes.size());
+    for (InstancePlacement const& placement : instances) {
+        RTCGeometry const g = rtcNewGeometry(self.device, RTC_GEOMETRY_TYPE_INSTANCE);
+        rtcSetGeometryInstancedScene(g, self.object_scenes[static_cast<std::size_t>(placement.object)]);
+        Eigen::Matrix<float, 3, 4> const m = placement.to_world.matrix().topRows<3>().cast<float>();  // column major
+        rtcSetGeometryTransform(g, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, m.data());
+        self.attach(self.scene, g);
+        self.instances.push_back({&objects[static_cast<std::size_t>(placement.object)],
+                                  placement.to_world.cast<float>(), placement.to_world.inverse().cast<float>()});
+    }
+    rtcCommitScene(self.scene);
+    if (RTCError const error = rtcGetDeviceError(self.device); error != RTC_ERROR_NONE)
+        throw std::runtime_error("Embree could not build the scene (error " + std::to_string(error) + ")");
+}
+
+Accelerator::~Accelerator() = default;
+Accelerator::Accelerator(Accelerator&&) noexcept = default;
+
+std::optional<Hit> Accelerator::closest(Ray const& ray, RayStatistics& statistics) const {
+    Implementation const& self = *implementation_;
+    RTCRayHit rh;
+    rh.ray = {ray.origin.x(), ray.origin.y(), ray.origin.z(), ray.t_min, ray.direction.x(), ray.direction.y(),
+              ray.direction.z(), 0, ray.t_max, ~0u, 0, 0};
+    rh.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rh.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    {
+        Stopwatch const watch(statistics);
+        rtcIntersect1(self.scene, &context, &rh);
+    }
+    ++statistics.closest_rays;
+    if (rh.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+
+    Hit hit;
+    hit.distance = rh.ray.tfar;
+    hit.primitive = rh.hit.primID;
+    bool const in_instance = rh.hit.instID[0] != RTC_INVALID_GEOMETRY_ID;
+    PlacedObject const* const placed = in_instance ? &self.instances[rh.hit.instID[0] - self.first_instance] : nullptr;
+    hit.shape = placed ? &placed->object->shapes[rh.hit.geomID] : &(*self.shapes)[rh.hit.geomID];
+    Vector on_ray = ray.origin + hit.distance * ray.direction;
+    if (placed) on_ray = placed->to_object * on_ray;
+    hit.point = std::visit([&](auto const& g) { return surface_point(g, on_ray, rh.hit); }, hit.shape->geometry);
+    if (hit.shape->flipped) flip(hit.point);
+    if (placed) {
+        // Normals are covectors: they go by the inverse transpose.
+        auto const normal_map = placed->to_object.linear().transpose();
+        hit.point.position = placed->to_world * hit.point.position;
+        hit.point.geometric_normal = (normal_map * hit.point.geometric_normal).normalized();
+        hit.point.frame = Frame::around((normal_map * hit.point.frame.normal).normalized());
+    }
+    return hit;
+}
+
+bool Accelerator::occluded(Ray const& ray, RayStatistics& statistics) const {
+    RTCRay r{ray.origin.x(), ray.origin.y(), ray.origin.z(), ray.t_min, ray.direction.x(), ray.direction.y(),
+             ray.direction.z(), 0, ray.t_max, ~0u, 0, 0};
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    {
+        Stopwatch const watch(statistics);
+        rtcOccluded1(implementation_->scene, &context, &r);
+    }
+    ++statistics.shadow_rays;
+    return r.tfar < 0;
+}
+
+Vector Accelerator::lower_bound() const {
+    RTCBounds b;
+    rtcGetSceneBounds(implementation_->scene, &b);
+    return b.lower_x <= b.upper_x ? Vector(b.lower_x, b.lower_y, b.lower_z) : Vector(0, 0, 0);
+}
+Vector Accelerator::upper_bound() const {
+    RTCBounds b;
+    rtcGetSceneBounds(implementation_->scene, &b);
+    return b.lower_x <= b.upper_x ? Vector(b.upper_x, b.upper_y, b.upper_z) : Vector(0, 0, 0);
+}
+void* Accelerator::embree_scene() const { return implementation_->scene; }
+
+namespace {
+
+// 64 units in the last place of the largest coordinate (a point computed from barycentrics errs by 3 to 20), plus
+// Embree's own uncertainty for points near the origin.
+Vector off_surface(SurfacePoint const& point, Direction const& direction) {
+    float const largest = std::max(point.position.cwiseAbs().maxCoeff(), 1e-4f);  // m
+    float const offset = 64 * std::numeric_limits<float>::epsilon() * largest;
+    float const side = direction.dot(point.geometric_normal) >= 0 ? offset : -offset;
+    return point.position + side * point.geometric_normal;
+}
+
+}  // namespace
+
+Ray spawn_ray(SurfacePoint const& point, Direction const& direction) {
+    return {off_surface(point, direction), direction};
+}
+
+Ray spawn_shadow_ray(SurfacePoint const& point, Direction const& direction, float distance) {
+    constexpr float shortening = 1e-4f;  // relative: keeps the light's own surface out
+    return {off_surface(point, direction), direction, 0, distance * (1 - shortening)};
+}
+
+}  // namespace iride
