@@ -126,10 +126,11 @@ SurfacePoint surface_point(Sphere const& s, Vector const& on_ray, RTCHit const&)
     return {s.centre + s.radius * n, n, Frame::around(n)};
 }
 SurfacePoint surface_point(Quad const& q, Vector const&, RTCHit const& hit) {
-    // Embree's quads are parametrised bilinearly over (0 1 2 3).
+    // Embree's quad is the triangles (0 1 3), parametrised by (u, v), and (2 3 1), by (1 - u, 1 - v).
+    auto const& c = q.corner;
     float const u = hit.u, v = hit.v;
-    Vector const p = (1 - u) * (1 - v) * q.corner[0] + u * (1 - v) * q.corner[1] + u * v * q.corner[2] +
-                     (1 - u) * v * q.corner[3];
+    Vector const p = u + v <= 1 ? Vector(c[0] + u * (c[1] - c[0]) + v * (c[3] - c[0]))
+                                : Vector(c[2] + (1 - u) * (c[3] - c[2]) + (1 - v) * (c[1] - c[2]));
     Direction const n = q.normal();
     return {p, n, Frame::around(n), {u, v}};
 }
