@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: Apache-2.0
+// Diffuse emitters on shapes.
+#include "base/spherical.h"
+#include "scene/light.h"
+
+namespace iride {
+
+namespace {
+
+// Below this solid angle [sr] the spherical formulas lose their digits (angles of order 1e-3 subtracted in float) and
+// sampling by area is as good: the density hardly varies.
+constexpr float smallest_solid_angle = 1e-3f;
+
+class AreaLight : public Light {
+  public:
+    AreaLight(EmitterStrength strength, double area, bool flipped)
+        : strength_(std::move(strength)), area_(area), flipped_(flipped) {}
+
+    Radiance emitted(SurfacePoint const& on, Direction const& wo, Wavelengths const& wavelengths) const override {
+        if (!strength_.emitter.two_sided && wo.dot(on.geometric_normal) <= 0) return {};
+        return strength_.emitter.radiance.at(wavelengths);
+    }
+    double power(double) const override { return pi_double * area_ * strength_.luminance * sides(); }
+
+  protected:
+    int sides() const { return strength_.emitter.two_sided ? 2 : 1; }
+
+    // A point of the surface with its outward normal, found with the given density.
+    std::optional<LightSample> towards(Vector const& from, Vector const& point, Direction const& outward,
+                                       Wavelengths const& wavelengths, PerSteradian density) const {
+        Vector const d = point - from;
+        float const distance = d.norm();
+        if (!(distance > 0) || !(density.value > 0) || !(density.value < infinity)) return std::nullopt;
+        Direction const wi = d / distance;
+        float const facing = flipped_ ? wi.dot(outward) : -wi.dot(outward);
+        if (facing == 0 || (facing < 0 && !strength_.emitter.two_sided)) return std::nullopt;
+        return LightSample{wi, distance, strength_.emitter.radiance.at(wavelengths), density};
+    }
+
+    static PerSteradian area_density(float area, Vector const& from, Vector const& point, Direction const& normal) {
+        Vector const d = point - from;
+        float const r = d.norm();
+        return to_solid_angle(PerSquareMetre(1 / area), Metres(r), d.dot(normal) / r);
+    }
+
+    EmitterStrength strength_;
+    double area_;
+    bool flipped_;
+};
+
+// Uniform in the cone that the sphere fills, seen from outside; by area from inside.
+class SphereLight final : public AreaLight {
+  public:
+    SphereLight(Sphere const& sphere, EmitterStrength strength, bool flipped)
+        : AreaLight(std::move(strength), 4 * pi_double * square(static_cast<double>(sphere.radius)), flipped),
+          sphere_(sphere) {}
+
+    std::optional<LightSample> sample(Vector const& from, Wavelengths const& wavelengths, Sample2 u) const override {
+        if (!outside(from)) {
+            Direction const n = to_sphere(u);
+            Vector const point = sphere_.centre + sphere_.radius * n;
+            return towards(from, point, n, wavelengths, area_density(static_cast<float>(area_), from, point, n));
+        }
+        Vector const d = sphere_.centre - from;
+        float const distance = d.norm(), height = cone_height(from);
+        Direction const wi = Frame::around(d / distance).to_world(to_cone(u, height));
+        // Where wi meets the sphere: the nearer of b -+ sqrt(r^2 - |across|^2).
+        float const along = wi.dot(d);
+        float const half_chord2 = square(sphere_.radius) - (d - along * wi).squaredNorm();
+        Vector const point = from + (along - std::sqrt(std::max(0.0f, half_chord2))) * wi;
+        Direction const n = (point - sphere_.centre).normalized();
+        float const facing = flipped_ ? wi.dot(n) : -wi.dot(n);
+        if (facing < 0 && !strength_.emitter.two_sided) return std::nullopt;
+        return LightSample{wi, (point - from).norm(), strength_.emitter.radiance.at(wavelengths), cone_density(height)};
+    }
+    PerSteradian density(Vector const& from, SurfacePoint const& on, std::uint32_t) const override {
+        if (outside(from)) return cone_density(cone_height(from));
+        return area_density(static_cast<float>(area_), from, on.position, on.geometric_normal);
+    }
+
+  private:
+    // A little clear of the surface, where the cone is a hemisphere and the density no longer helps.
+    bool outside(Vector const& from) const {
+        return (from - sphere_.centre).squaredNorm() > square(sphere_.radius) * 1.0001f;
+    }
+    // 1 - cos of the cone's half angle, without cancellation: s^2 / (1 + cos), s = r / d.
+    float cone_height(Vector const& from) const {
+        float const s2 = square(sphere_.radius) / (from - sphere_.centre).squaredNorm();
+        return s2 / (1 + std::sqrt(std::max(0.0f, 1 - s2)));
+    }
+    Sphere sphere_;
+};
+
+class RectangleLight final : public AreaLight {
+  public:
+    RectangleLight(Quad const& quad, EmitterStrength strength, bool flipped)
+        : AreaLight(std::move(strength), quad.area(), flipped),
+          corner_(quad.corner[0]),
+          edge_x_(quad.corner[1] - quad.corner[0]),
+          edge_y_(quad.corner[3] - quad.corner[0]),
+          normal_(quad.normal()) {}
+
+    std::optional<LightSample> sample(Vector const& from, Wavelengths const& wavelengths, Sample2 u) const override {
+        SphericalRectangle const seen(corner_, edge_x_, edge_y_, from);
+        if (seen.solid_angle() > smallest_solid_angle)
+            return towards(from, from + seen.sample(u), normal_, wavelengths, PerSteradian(1 / seen.solid_angle()));
+        Vector const point = corner_ + u.x * edge_x_ + u.y * edge_y_;
+        return towards(from, point, normal_, wavelengths,
+                       area_density(static_cast<float>(area_), from, point, normal_));
+    }
+    PerSteradian density(Vector const& from, SurfacePoint const& on, std::uint32_t) const override {
+        SphericalRectangle const seen(corner_, edge_x_, edge_y_, from);
+        if (seen.solid_angle() > smallest_solid_angle) return PerSteradian(1 / seen.solid_angle());
+        return area_density(static_cast<float>(area_), from, on.position, normal_);
+    }
+
+  private:
+    Vector corner_, edge_x_, edge_y_;
+    Direction normal_;
+};
+
+// Triangles, chosen by area, each then by its solid angle.
+class TrianglesLight final : public AreaLight {
+  public:
+    using Triangle = std::array<Vector, 3>;
+
+    TrianglesLight(std::vector<Triangle> triangles, EmitterStrength strength, bool flipped)
+        : AreaLight(std::move(strength), 0, flipped), triangles_(std::move(triangles)) {
+        std::vector<double> areas;
+        for (Triangle const& t : triangles_) areas.push_back(area(t));
+        by_area_ = DiscreteDistribution(areas);
+        area_ = by_area_.total_weight();
+    }
+
+    std::optional<LightSample> sample(Vector const& from, Wavelengths const& wavelengths, Sample2 u) const override {
+        auto const choice = by_area_.sample(u.x);
+        Triangle const& t = triangles_[static_cast<std::size_t>(choice.index)];
+        Sample2 const v{choice.rest, u.y};
+        Direction const n = (t[1] - t[0]).cross(t[2] - t[0]).normalized();
+        Vector point;
+        if (solid_angle(t, from) > smallest_solid_angle) {
+            Direction const wi = sample_spherical_triangle((t[0] - from).normalized(), (t[1] - from).normalized(),
+                                                           (t[2] - from).normalized(), v);
+            point = from + wi * ((t[0] - from).dot(n) / wi.dot(n));
+        } else {
+            Vector2 const b = to_triangle(v);
+            point = t[0] + b.x() * (t[1] - t[0]) + b.y() * (t[2] - t[0]);
+        }
+        return towards(from, point, n, wavelengths, triangle_density(t, from, point, n) * choice.probability);
+    }
+    PerSteradian density(Vector const& from, SurfacePoint const& on, std::uint32_t primitive) const override {
+        std::size_t const i = triangles_.size() == 1 ? 0 : primitive_of(on, primitive);
+        return triangle_density(triangles_[i], from, on.position, on.geometric_normal) *
+               by_area_.probability(static_cast<int>(i));
+    }
+
+    // A quad is one primitive of two triangles, told apart by its uv.
+    void set_is_quad() { is_quad_ = true; }
+
+  private:
+    std::size_t primitive_of(SurfacePoint const& on, std::uint32_t primitive) const {
+        return is_quad_ ? (on.uv.x() + on.uv.y() <= 1 ? 0 : 1) : primitive;
+    }
+    static double area(Triangle const& t) { return 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm(); }
+    static float solid_angle(Triangle const& t, Vector const& from) {
+        return triangle_solid_angle((t[0] - from).normalized(), (t[1] - from).normalized(),
+                                    (t[2] - from).normalized());
+    }
+    static PerSteradian triangle_density(Triangle const& t, Vector const& from, Vector const& point,
+                                         Direction const& n) {
+        float const seen = solid_angle(t, from);
+        if (seen > smallest_solid_angle) return PerSteradian(1 / seen);
+        return area_density(static_cast<float>(area(t)), from, point, n);
+    }
+
+    std::vector<Triangle> triangles_;
+    DiscreteDistribution by_area_;
+    bool is_quad_ = false;
+};
+
+// Discs and frusta: uniform over the area.
+class DiscLight final : public AreaLight {
+  public:
+    DiscLight(Disc const& disc, EmitterStrength strength, bool flipped)
+        : AreaLight(std::move(strength), pi_double * square(static_cast<double>(disc.radius)), flipped),
+          disc_(disc),
+          frame_(Frame::around(disc.normal)) {}
+
+    std::optional<LightSample> sample(Vector const& from, Wavelengths const& wavelengths, Sample2 u) const override {
+        Vector2 const d = disc_.radius * to_disc(u);
+        Vector const point = disc_.centre + frame_.to_world({d.x(), d.y(), 0});
+        return towards(from, point, disc_.normal, wavelengths,
+                       area_density(static_cast<float>(area_), from, point, disc_.normal));
+    }
+    PerSteradian density(Vector const& from, SurfacePoint const& on, std::uint32_t) const override {
+        return area_density(static_cast<float>(area_), from, on.position, disc_.normal);
+    }
+
+  private:
+    Disc disc_;
+    Frame frame_;
+};
+
+class FrustumLight final : public AreaLight {
+  public:
+    FrustumLight(Frustum const& f, EmitterStrength strength, bool flipped)
+        : AreaLight(std::move(strength), f.area(), flipped),
+          frustum_(f),
+          frame_(Frame::around((f.to - f.from).normalized())) {}
+
+    std::optional<LightSample> sample(Vector const& from, Wavelengths const& wavelengths, Sample2 u) const override {
+        // Height with density proportional to the radius there, inverted without cancellation:
+        // r(z)^2 = r0^2 + u (r1^2 - r0^2).
+        float const r0 = frustum_.radius, r1 = frustum_.top_radius;
+        float const r = std::sqrt(r0 * r0 + u.x * (r1 * r1 - r0 * r0));
+        float const z = r0 + r1 > 0 ? u.x * (r1 + r0) / (r + r0) : 0;  // (r - r0) / (r1 - r0)
+        float const phi = 2 * pi * u.y, m = (r1 - r0) / frustum_.length();
+        Vector const outward = frame_.to_world({std::cos(phi), std::sin(phi), 0});
+        Vector const point = frustum_.from + z * (frustum_.to - frustum_.from) + r * outward;
+        Direction const n = (outward - m * frame_.normal).normalized();
+        return towards(from, point, n, wavelengths, area_density(static_cast<float>(area_), from, point, n));
+    }
+    PerSteradian density(Vector const& from, SurfacePoint const& on, std::uint32_t) const override {
+        return area_density(static_cast<float>(area_), from, on.position, on.geometric_normal);
+    }
+
+  private:
+    Frustum frustum_;
+    Frame frame_;
+};
+
+std::unique_ptr<Light> make(Sphere const& s, EmitterStrength e, bool flipped) {
+    return std::make_unique<SphereLight>(s, std::move(e), flipped);
+}
+std::unique_ptr<Light> make(Quad const& q, EmitterStrength e, bool flipped) {
+    if (q.is_rectangle()) return std::make_unique<RectangleLight>(q, std::move(e), flipped);
+    auto const& c = q.corner;
+    auto light = std::make_unique<TrianglesLight>(
+        std::vector<TrianglesLight::Triangle>{{c[0], c[1], c[3]}, {c[2], c[3], c[1]}}, std::move(e), flipped);
+    light->set_is_quad();
+    return light;
+}
+std::unique_ptr<Light> make(Disc const& d, EmitterStrength e, bool flipped) {
+    return std::make_unique<DiscLight>(d, std::move(e), flipped);
+}
+std::unique_ptr<Light> make(Frustum const& f, EmitterStrength e, bool flipped) {
+    return std::make_unique<FrustumLight>(f, std::move(e), flipped);
+}
+std::unique_ptr<Light> make(MeshShape const& m, EmitterStrength e, bool flipped) {
+    std::vector<TrianglesLight::Triangle> triangles;
+    for (auto const& t : m.mesh->triangle)
+        triangles.push_back({m.mesh->position[t[0]], m.mesh->position[t[1]], m.mesh->position[t[2]]});
+    return std::make_unique<TrianglesLight>(std::move(triangles), std::move(e), flipped);
+}
+
+}  // namespace
+
+std::unique_ptr<Light> make_area_light(Shape const& shape, EmitterStrength strength) {
+    return std::visit([&](auto const& g) { return make(g, std::move(strength), shape.flipped); }, shape.geometry);
+}
+
+}  // namespace iride

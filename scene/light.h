@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lights, sampled from a point they may illuminate. Densities are per steradian at that point.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "base/distribution.h"
+#include "base/warp.h"
+#include "materials/material.h"
+#include "scene/shape.h"
+
+namespace iride {
+
+struct LightSample {
+    Direction wi;                         // from the point to the light
+    float distance;                       // metres; infinite for environments and distant lights
+    Radiance radiance;                    // for a Dirac light: radiance times solid angle, i.e. irradiance / |cos|
+    std::optional<PerSteradian> density;  // absent for a Dirac light (point, spot, distant)
+};
+
+class Light {
+  public:
+    virtual ~Light() = default;
+
+    virtual std::optional<LightSample> sample(Vector const& from, Wavelengths const& wavelengths, Sample2 u) const = 0;
+
+    // Radiance emitted at `on` (a point of this light's shape) along `wo`, away from the surface, and the density with
+    // which sample(from) would have found that point, on triangle `primitive` of the shape.
+    virtual Radiance emitted(SurfacePoint const& on, Direction const& wo, Wavelengths const& wavelengths) const;
+    virtual PerSteradian density(Vector const& from, SurfacePoint const& on, std::uint32_t primitive) const;
+
+    // Environments: radiance arriving from direction `wi`, and the density of sample() there.
+    virtual Radiance arriving(Direction const& wi, Wavelengths const& wavelengths) const;
+    virtual PerSteradian arriving_density(Direction const& wi) const;
+
+    // Luminous power up to a common factor, for choosing among lights; `scene_radius` in metres.
+    virtual double power(double scene_radius) const = 0;
+    virtual bool is_environment() const { return false; }
+};
+
+// Luminance-weighted strengths are measured at load: the spectra themselves stay as they are.
+struct EmitterStrength {
+    Emitter emitter;
+    double luminance;  // (integral of L ybar) / (integral of ybar)
+};
+
+// Area lights: sampled by the solid angle their shape subtends (spheres by the visible cone, rectangles and triangles
+// exactly), discs and frusta by area.
+std::unique_ptr<Light> make_area_light(Shape const& shape, EmitterStrength strength);
+
+std::unique_ptr<Light> make_point_light(Vector const& position, Spectrum<dim::spectral_intensity> intensity,
+                                        double luminance);
+struct SpotCone {
+    Direction axis;
+    float cos_full, cos_end;  // full inside cos_full, smooth cubic down to 0 at cos_end
+};
+std::unique_ptr<Light> make_spot_light(Vector const& position, SpotCone cone,
+                                       Spectrum<dim::spectral_intensity> intensity, double luminance);
+std::unique_ptr<Light> make_distant_light(Direction const& travel, Spectrum<dim::spectral_irradiance> irradiance,
+                                          double luminance);
+
+std::unique_ptr<Light> make_constant_environment(Emission radiance, double luminance);
+
+// Lat-long picture in linear Rec.709, one spectrum per primary: L(lambda) = sum_k texel_k basis_k(lambda).
+struct EnvironmentPicture {
+    int width, height;
+    std::vector<std::array<float, 3>> texel;  // [height][width]; row 0 at +y, column centre looks to -z, x to the right
+    std::array<Emission, 3> basis;
+    float rotation_rad = 0;  // about y
+};
+std::unique_ptr<Light> make_picture_environment(EnvironmentPicture picture);
+
+// All lights of a scene, chosen by power.
+class LightSet {
+  public:
+    LightSet() = default;
+    LightSet(std::vector<std::unique_ptr<Light>> lights, double scene_radius);
+
+    bool empty() const { return lights_.empty(); }
+    std::size_t size() const { return lights_.size(); }
+    Light const& light(int index) const { return *lights_[static_cast<std::size_t>(index)]; }
+    std::vector<int> const& environments() const { return environments_; }
+
+    struct Choice {
+        int index;
+        float probability;
+        float rest;
+    };
+    // Probability 0 never comes out; a set whose lights are all dark chooses nothing.
+    std::optional<Choice> choose(float u) const;
+    float probability(int index) const { return by_power_.size() > 0 ? by_power_.probability(index) : 0; }
+
+  private:
+    std::vector<std::unique_ptr<Light>> lights_;
+    std::vector<int> environments_;
+    DiscreteDistribution by_power_;
+};
+
+}  // namespace iride
