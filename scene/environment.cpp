@@ -37,7 +37,6 @@ class PictureEnvironment final : public Light {
             for (int x = 0; x < picture_.width; ++x) {
                 auto const& t = picture_.texel[index(x, y)];
                 double const luminance = 0.2126 * t[0] + 0.7152 * t[1] + 0.0722 * t[2];  // a weight, no colorimetry
-                // A dark texel beside a bright one still gets light from the interpolation-free lookup: its own only.
                 weights.push_back(luminance * std::sin(pi_double * (y + 0.5) / picture_.height));
             }
         distribution_ = SquareDistribution(weights, picture_.width, picture_.height);

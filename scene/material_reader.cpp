@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// Materials of a scene file.
+#include <array>
+
+#include "scene/readers.h"
+
+namespace iride {
+
+namespace {
+
+using Read = std::unique_ptr<Material const>;
+
+Read read_diffuse(SceneBuilder& b, Fields& f) {
+    auto const reflectance = read_spectrum(b, f, "reflectance", reflectance_kind);
+    if (!reflectance) return nullptr;
+    return std::make_unique<DiffuseMaterial>(Reflectance(*reflectance, b.scene.grid));
+}
+
+Read read_conductor(SceneBuilder& b, Fields& f) {
+    auto const ior = read_complex_index(b, f, "ior");
+    double const roughness = f.number("roughness", between(0, 1)).value_or(0);
+    if (roughness > 0 && roughness < 1e-3) f.error_at("roughness", "allowed: 0 (a mirror) or 0.001 .. 1 (GGX alpha)");
+    if (!ior) return nullptr;
+    return std::make_unique<ConductorMaterial>(Index(ior->n, b.scene.grid), Index(ior->k, b.scene.grid),
+                                               static_cast<float>(roughness));
+}
+
+Read read_dielectric(SceneBuilder& b, Fields& f) {
+    auto const inside = read_complex_index(b, f, "ior");
+    auto const outside =
+        f.find("exterior_ior") ? read_complex_index(b, f, "exterior_ior") : std::optional<ComplexIndex>(ComplexIndex{});
+    if (!inside || !outside) return nullptr;
+    for (auto const& [index, key] : {std::pair(&*inside, "ior"), std::pair(&*outside, "exterior_ior")})
+        if (index->k.largest(b.scene.wavelengths) > 0)
+            f.error_at(key, "this medium absorbs (k > 0): a dielectric is transparent; a metal is a 'conductor'");
+    return std::make_unique<DielectricMaterial>(Index(inside->n, b.scene.grid), Index(outside->n, b.scene.grid));
+}
+
+Read read_black(SceneBuilder&, Fields&) { return std::make_unique<BlackMaterial>(); }
+
+constexpr std::array<MaterialEntry, 4> table{{
+    {"diffuse", "Lambert's law, on both sides", read_diffuse},
+    {"conductor", "a metal by its n + ik, smooth or GGX rough", read_conductor},
+    {"dielectric", "a smooth transparent body, dispersive where its index is", read_dielectric},
+    {"black", "absorbs everything", read_black},
+}};
+
+}  // namespace
+
+std::span<MaterialEntry const> material_entries() { return table; }
+
+int read_material(SceneBuilder& b, JsonValue const& value, std::string const& path, std::string const& name) {
+    Fields fields(b.context, value, path);
+    MaterialEntry const* const entry = find_entry(fields, material_entries());
+    if (!entry) return 0;
+    Read material = entry->reader(b, fields);
+    fields.finish();
+    if (!material) material = std::make_unique<BlackMaterial>();  // an error was reported: never rendered
+    b.scene.materials.push_back({name, entry->name, std::move(material)});
+    return static_cast<int>(b.scene.materials.size()) - 1;
+}
+
+}  // namespace iride

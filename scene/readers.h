@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// The readers of the parts of a scene file. Each family is one constexpr table {name, summary, reader}; the loader, the
+// help and the tests iterate it.
+#pragma once
+
+#include <map>
+#include <span>
+
+#include "scene/fields.h"
+#include "scene/scene.h"
+#include "spectral/catalogue.h"
+
+namespace iride {
+
+// What the readers share while a file is read.
+struct SceneBuilder {
+    ReadContext& context;
+    Scene& scene;
+    double length_unit_m = 1;
+    std::map<std::string, int> material_by_name;
+    std::vector<std::unique_ptr<Light>> lights;
+};
+
+// ---- spectra (spectrum_reader.cpp)
+struct SpectrumKind {
+    SpectralQuantity quantity;
+    Outside outside;          // beyond a table, unless the file says otherwise
+    bool may_scale_luminance;
+    double least, most;       // allowed values over the render range
+};
+extern SpectrumKind const reflectance_kind, emission_kind, index_kind;
+
+// The spectrum under `key` (required), checked over the render range.
+std::optional<SpectralFunction> read_spectrum(SceneBuilder& builder, Fields& fields, std::string const& key,
+                                              SpectrumKind const& kind);
+std::optional<ComplexIndex> read_complex_index(SceneBuilder& builder, Fields& fields, std::string const& key);
+double luminance_of(SpectralFunction const& radiance);
+WavelengthRange nonzero_range(SpectralFunction const& emission, WavelengthRange const& within);
+
+// ---- materials (material_reader.cpp)
+struct MaterialEntry {
+    char const* name;
+    char const* summary;
+    std::unique_ptr<Material const> (*reader)(SceneBuilder&, Fields&);
+};
+std::span<MaterialEntry const> material_entries();
+// A material object; its index in the scene, or 0 after an error.
+int read_material(SceneBuilder& builder, JsonValue const& value, std::string const& path, std::string const& name);
+
+// ---- shapes (shape_reader.cpp)
+struct ShapeEntry {
+    char const* name;
+    char const* summary;
+    void (*reader)(SceneBuilder&, Fields&, std::vector<ShapeGeometry>&);
+};
+std::span<ShapeEntry const> shape_entries();
+// The shapes of an array; `in_object`: emitters are refused.
+void read_shapes(SceneBuilder& builder, JsonValue const& value, std::string const& path, bool in_object,
+                 std::vector<Shape>& shapes);
+// transform_reader.cpp
+Transform read_transform(SceneBuilder& builder, Fields& fields, std::string const& key);
+// Apply a transform to a geometry; reports shapes that cannot take it.
+void apply_transform(SceneBuilder& builder, Fields& fields, Transform const& transform, ShapeGeometry& geometry);
+
+// ---- lights (light_reader.cpp)
+struct LightEntry {
+    char const* name;
+    char const* summary;
+    void (*reader)(SceneBuilder&, Fields&);
+};
+std::span<LightEntry const> light_entries();
+void read_lights(SceneBuilder& builder, JsonValue const& value, std::string const& path);
+// Add a light with its description; its index.
+int add_light(SceneBuilder& builder, std::unique_ptr<Light> light, std::string const& type,
+              SpectralFunction const& spectrum, double luminance);
+
+// The type of an object by one of these tables; null after a diagnostic.
+template <class Entry>
+Entry const* find_entry(Fields& fields, std::span<Entry const> entries) {
+    std::vector<std::string> names;
+    for (Entry const& e : entries) names.emplace_back(e.name);
+    if (!fields.require("type")) return nullptr;
+    auto const type = fields.choice("type", names);
+    if (!type) return nullptr;
+    for (Entry const& e : entries)
+        if (*type == e.name) return &e;
+    return nullptr;
+}
+
+}  // namespace iride

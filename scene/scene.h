@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scene, ready to be traced: geometry, materials, lights, camera, and what the file says about film and render.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/diagnostics.h"
+#include "base/sampler.h"
+#include "colour/xyz.h"
+#include "scene/accelerator.h"
+#include "scene/camera.h"
+#include "scene/light.h"
+
+namespace iride {
+
+enum class FilterKind { box, triangle, gaussian };
+
+struct FilmSettings {
+    int width = 256, height = 256;
+    FilterKind filter = FilterKind::box;
+    float filter_radius = 0.5f;  // pixels
+    double exposure = 1;
+    Chromaticity white{0.3127, 0.3290};
+    int band_count = 0;
+    WavelengthRange band_range = visible_range;
+    bool half = false;
+};
+
+struct RenderDefaults {
+    std::string integrator = "path";
+    int spp = 64;
+    std::uint64_t seed = 0;
+    SamplerKind sampler = SamplerKind::sobol;
+    std::optional<int> max_bounces;
+};
+
+// A material with what is known of it outside the sampling loop.
+struct NamedMaterial {
+    std::string name, type;
+    std::unique_ptr<Material const> material;
+};
+
+// What the plan wants to know of a light's spectrum.
+struct LightDescription {
+    std::string type;
+    WavelengthRange nonzero;  // outside it the light is dark
+    double luminance;
+};
+
+struct Scene {
+    std::string name, description, hash;  // hash: of the scene file and every file it names
+    WavelengthRange wavelengths = visible_range;
+    WavelengthGrid grid{};
+    CameraSettings camera;
+    FilmSettings film;
+    RenderDefaults render;
+    std::vector<NamedMaterial> materials;
+    std::vector<Shape> shapes;
+    std::vector<ObjectGeometry> objects;
+    std::vector<InstancePlacement> instances;
+    std::vector<LightDescription> light_descriptions;
+    LightSet lights;
+    std::unique_ptr<Accelerator> accelerator;
+    std::vector<std::string> remarks;  // the load report: tables shorter than the range and what fills the rest
+
+    Material const& material(int index) const { return *materials[static_cast<std::size_t>(index)].material; }
+    Vector centre() const { return (accelerator->lower_bound() + accelerator->upper_bound()) / 2; }
+    float radius() const { return (accelerator->upper_bound() - accelerator->lower_bound()).norm() / 2; }
+};
+
+// Load a scene file. Throws one InputError with everything that is wrong with it.
+std::unique_ptr<Scene> load_scene(std::filesystem::path const& path);
+
+// SCENE of the command line: a file, or the name of a shipped scene. Throws InputError with the nearest name.
+std::filesystem::path find_scene(std::string const& file_or_name);
+struct ShippedScene {
+    std::string name, description;
+};
+std::vector<ShippedScene> shipped_scenes();
+
+}  // namespace iride
