@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lights of a scene file that are no shapes.
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "colour/rgb_to_spectrum.h"
+#include "scene/readers.h"
+
+namespace iride {
+
+namespace {
+
+Vector metres(SceneBuilder const& b, VectorDouble const& v) { return (v * b.length_unit_m).cast<float>(); }
+
+// A lat-long picture in linear Rec.709. Throws InputError.
+EnvironmentPicture read_picture(std::filesystem::path const& path, double scale, WavelengthGrid const& grid) {
+    auto const fail = [&](std::string const& message) -> InputError {
+        return InputError(Diagnostic{{path.string()}, "", message});
+    };
+    if (!std::filesystem::is_regular_file(path)) throw fail("no such file");
+    auto const input = OIIO::ImageInput::open(path.string());
+    if (!input) throw fail("not a readable picture: " + OIIO::geterror());
+    OIIO::ImageSpec const spec = input->spec();
+    if (spec.nchannels < 3) throw fail(fmt::format("found {} channels, but R, G, B are wanted", spec.nchannels));
+    constexpr int largest_side = 32768;
+    if (spec.width < 2 || spec.height < 1 || spec.width > largest_side || spec.height > largest_side)
+        throw fail(fmt::format("found {} x {} pixels, allowed: 2 x 1 .. {} squared", spec.width, spec.height, largest_side));
+    EnvironmentPicture picture{spec.width, spec.height, {}, {}, 0};
+    picture.texel.resize(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height));
+    if (!input->read_image(0, 0, 0, 3, OIIO::TypeDesc::FLOAT, picture.texel.data()))
+        throw fail("truncated or damaged: " + input->geterror());
+    double brightest = 0;
+    for (auto& texel : picture.texel)
+        for (float& c : texel) {
+            if (!std::isfinite(c) || c < 0)
+                throw fail("holds a texel that is negative or not finite: radiance is neither");
+            c *= static_cast<float>(scale);
+            brightest = std::max(brightest, static_cast<double>(c));
+        }
+    if (brightest == 0) throw fail("is black everywhere");
+    for (std::size_t k = 0; k < 3; ++k) {
+        // The basis times D65 of luminance 1.
+        SpectralFunction const &basis = rec709_basis()[k], &light = unit_d65();
+        TabulatedShape product;
+        for (double nm = visible_range.min_nm; nm <= visible_range.max_nm; ++nm) {
+            product.nm.push_back(nm);
+            product.value.push_back(basis.at(nm) * light.at(nm));
+        }
+        picture.basis[k] = Emission(SpectralFunction(std::move(product), Outside::zero), grid);
+    }
+    return picture;
+}
+
+void read_environment(SceneBuilder& b, Fields& f) {
+    JsonValue const* const image = f.find("image");
+    if (!image) {
+        if (!f.find("radiance")) return f.error("an environment has 'radiance' or 'image'");
+        auto const radiance = read_spectrum(b, f, "radiance", emission_kind);
+        if (!radiance) return;
+        double const luminance = luminance_of(*radiance);
+        add_light(b, make_constant_environment(Emission(*radiance, b.scene.grid), luminance), "environment", *radiance,
+                  luminance);
+        return;
+    }
+    auto const name = f.text("image");
+    double const scale = f.number("scale", positive()).value_or(1), rotation = f.number("rotation_deg").value_or(0);
+    if (!name) return;
+    std::filesystem::path const path = b.context.folder / *name;
+    b.context.files_read.push_back(path);
+    b.context.guarded(*image, f.path("image"), [&] {
+        EnvironmentPicture picture = read_picture(path, scale, b.scene.grid);
+        picture.rotation_rad = static_cast<float>(radians(rotation));
+        add_light(b, make_picture_environment(std::move(picture)), "environment picture", unit_d65(), 1);
+    });
+}
+
+void read_point(SceneBuilder& b, Fields& f) {
+    Vector const position = metres(b, f.required_vector("position"));
+    auto const intensity = read_spectrum(b, f, "intensity", emission_kind);
+    if (!intensity) return;
+    double const luminance = luminance_of(*intensity);
+    Spectrum<dim::spectral_intensity> const I(*intensity, b.scene.grid);
+    add_light(b, make_point_light(position, I, luminance), "point", *intensity, luminance);
+}
+
+void read_spot(SceneBuilder& b, Fields& f) {
+    VectorDouble const position = f.required_vector("position"), target = f.required_vector("target");
+    double const end = f.required_number("cone_deg", {.least = 0, .most = 180, .least_excluded = true});
+    double const full = f.number("full_deg", between(0, 180)).value_or(0);
+    auto const intensity = read_spectrum(b, f, "intensity", emission_kind);
+    if ((target - position).norm() == 0) return f.error("'position' and 'target' are the same point");
+    if (full >= end) return f.error("'full_deg' must be below 'cone_deg'");
+    if (!intensity) return;
+    double const luminance = luminance_of(*intensity);
+    SpotCone const cone{(target - position).normalized().cast<float>(), static_cast<float>(std::cos(radians(full))),
+                        static_cast<float>(std::cos(radians(end)))};
+    Spectrum<dim::spectral_intensity> const I(*intensity, b.scene.grid);
+    add_light(b, make_spot_light(metres(b, position), cone, I, luminance), "spot", *intensity, luminance);
+}
+
+void read_distant(SceneBuilder& b, Fields& f) {
+    VectorDouble const direction = f.required_vector("direction");
+    auto const irradiance = read_spectrum(b, f, "irradiance", emission_kind);
+    if (direction.norm() == 0) return f.error_at("direction", "the direction has length 0");
+    if (!irradiance) return;
+    double const luminance = luminance_of(*irradiance);
+    Spectrum<dim::spectral_irradiance> const E(*irradiance, b.scene.grid);
+    add_light(b, make_distant_light(direction.normalized().cast<float>(), E, luminance), "distant", *irradiance,
+              luminance);
+}
+
+constexpr std::array<LightEntry, 4> table{{
+    {"environment", "from infinity: constant radiance or a lat-long picture", read_environment},
+    {"point", "position, intensity", read_point},
+    {"spot", "position, target, cone, intensity", read_spot},
+    {"distant", "direction, irradiance", read_distant},
+}};
+
+}  // namespace
+
+std::span<LightEntry const> light_entries() { return table; }
+
+int add_light(SceneBuilder& b, std::unique_ptr<Light> light, std::string const& type, SpectralFunction const& spectrum,
+              double luminance) {
+    b.lights.push_back(std::move(light));
+    b.scene.light_descriptions.push_back({type, nonzero_range(spectrum, b.scene.wavelengths), luminance});
+    return static_cast<int>(b.lights.size()) - 1;
+}
+
+void read_lights(SceneBuilder& b, JsonValue const& value, std::string const& path) {
+    JsonArray const* const array = value.as<JsonArray>();
+    if (!array) return b.context.error(value, path, "found " + value.described() + ", but an array of lights is wanted");
+    for (std::size_t i = 0; i < array->size(); ++i) {
+        Fields f(b.context, (*array)[i], fmt::format("{}[{}]", path, i));
+        LightEntry const* const entry = find_entry(f, light_entries());
+        if (!entry) continue;
+        entry->reader(b, f);
+        f.finish();
+    }
+}
+
+}  // namespace iride

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: Apache-2.0
+// The scene file as a whole.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "base/random.h"
+#include "colour/rgb_space.h"
+#include "scene/readers.h"
+
+namespace iride {
+
+namespace {
+
+void read_camera(SceneBuilder& b, Fields& top) {
+    JsonValue const* const value = top.require("camera");
+    if (!value) return;
+    Fields f(b.context, *value, "camera");
+    CameraSettings& c = b.scene.camera;
+    bool const orthographic = f.choice("type", {"perspective", "orthographic"}) == "orthographic";
+    c.projection = orthographic ? CameraSettings::Projection::orthographic : CameraSettings::Projection::perspective;
+    c.eye = f.required_vector("eye") * b.length_unit_m;
+    c.target = f.required_vector("target") * b.length_unit_m;
+    c.up = f.vector("up").value_or(VectorDouble(0, 1, 0));
+    VectorDouble const forward = c.target - c.eye;
+    if (forward.norm() == 0) f.error("'eye' and 'target' are the same point");
+    else if (forward.normalized().cross(c.up).norm() < 1e-6) f.error_at("up", "'up' is parallel to the line of sight");
+    if (orthographic) {
+        c.window = f.required_number("window", positive()) * b.length_unit_m;
+    } else {
+        c.field_deg = f.required_number("field_deg", {.least = 0, .most = 179, .least_excluded = true});
+        c.aperture_radius = f.number("aperture_radius", at_least(0)).value_or(0) * b.length_unit_m;
+        auto const focus = f.number("focus_distance", positive());
+        c.focus_distance = focus ? *focus * b.length_unit_m : forward.norm();
+    }
+    f.finish();
+}
+
+Chromaticity read_white(SceneBuilder& b, Fields& f) {
+    Chromaticity white{0.3127, 0.3290};
+    JsonValue const* const value = f.find("white");
+    if (!value) return white;
+    if (value->as<JsonArray>()) {
+        auto const xy = f.numbers("white", 2);
+        if (xy && !((*xy)[0] > 0 && (*xy)[1] > 0 && (*xy)[0] + (*xy)[1] < 1))
+            f.error_at("white", "a chromaticity has x > 0, y > 0, x + y < 1");
+        else if (xy) white = {(*xy)[0], (*xy)[1]};
+    } else if (auto const name = f.text("white")) {
+        b.context.guarded(*value, f.path("white"), [&] { white = named_white(*name); });
+    }
+    return white;
+}
+
+std::optional<WavelengthRange> read_range(Fields& f, std::string const& key) {
+    auto const pair = f.numbers(key, 2);
+    if (!pair) return std::nullopt;
+    WavelengthRange const range{(*pair)[0], (*pair)[1]};
+    if (range.min_nm >= 100 && range.max_nm <= 20000 && range.min_nm < range.max_nm) return range;
+    f.error_at(key, "allowed: [from, to] in nanometres with 100 <= from < to <= 20000");
+    return std::nullopt;
+}
+
+void read_film(SceneBuilder& b, Fields& top) {
+    JsonValue const* const value = top.find("film");
+    if (!value) return;
+    Fields f(b.context, *value, "film");
+    FilmSettings& film = b.scene.film;
+    if (auto const size = f.numbers("size", 2)) {
+        constexpr double largest = 65536;
+        bool good = true;
+        for (double s : *size) good = good && s >= 1 && s <= largest && s == std::floor(s);
+        if (good) film.width = static_cast<int>((*size)[0]), film.height = static_cast<int>((*size)[1]);
+        else
+            f.error_at("size", fmt::format("found {} x {}, allowed: whole numbers 1 .. {}", (*size)[0], (*size)[1], largest));
+    }
+    auto const filter = f.choice("filter", {"box", "triangle", "gaussian"}).value_or("box");
+    film.filter = filter == "triangle"   ? FilterKind::triangle
+                  : filter == "gaussian" ? FilterKind::gaussian
+                                         : FilterKind::box;
+    double const usual = filter == "triangle" ? 1 : filter == "gaussian" ? 1.5 : 0.5;
+    film.filter_radius =
+        static_cast<float>(f.number("filter_radius", {.least = 0, .most = 16, .least_excluded = true}).value_or(usual));
+    film.exposure = f.number("exposure", positive()).value_or(1);
+    film.white = read_white(b, f);
+    film.half = f.boolean("half").value_or(false);
+    if (JsonValue const* const bands = f.find("bands")) {
+        Fields g(b.context, *bands, "film.bands");
+        g.require("count");
+        film.band_count = g.integer("count", 1, 1000).value_or(1);
+        film.band_range = read_range(g, "range_nm").value_or(b.scene.wavelengths);
+        if (!b.scene.wavelengths.contains(film.band_range))
+            g.error_at("range_nm", fmt::format("bands reach beyond wavelengths_nm, {:g}..{:g}", b.scene.wavelengths.min_nm,
+                                               b.scene.wavelengths.max_nm));
+        g.finish();
+    }
+    f.finish();
+}
+
+void read_render(SceneBuilder& b, Fields& top) {
+    JsonValue const* const value = top.find("render");
+    if (!value) return;
+    Fields f(b.context, *value, "render");
+    RenderDefaults& r = b.scene.render;
+    r.integrator = f.text("integrator").value_or(r.integrator);
+    r.spp = f.integer("spp", 1, 1 << 24).value_or(r.spp);
+    if (auto const seed = f.number("seed", between(0, 0x1p53))) r.seed = static_cast<std::uint64_t>(*seed);
+    if (f.choice("sampler", {"sobol", "independent"}) == "independent") r.sampler = SamplerKind::independent;
+    r.max_bounces = f.integer("max_bounces", 0, 1 << 20);
+    f.finish();
+}
+
+void read_materials(SceneBuilder& b, Fields& top) {
+    JsonValue const* const value = top.find("materials");
+    if (!value) return;
+    JsonObject const* const object = value->as<JsonObject>();
+    if (!object) return top.error_at("materials", "found " + value->described() + ", but an object of materials is wanted");
+    for (auto const& [name, material] : *object)
+        b.material_by_name[name] = read_material(b, material, "materials." + name, name);
+}
+
+void read_objects(SceneBuilder& b, Fields& top) {
+    std::map<std::string, int> by_name;
+    if (JsonValue const* const value = top.find("objects")) {
+        JsonObject const* const object = value->as<JsonObject>();
+        if (!object) return top.error_at("objects", "found " + value->described() + ", but an object of shape lists is wanted");
+        for (auto const& [name, shapes] : *object) {
+            by_name[name] = static_cast<int>(b.scene.objects.size());
+            read_shapes(b, shapes, "objects." + name, true, b.scene.objects.emplace_back().shapes);
+        }
+    }
+    JsonValue const* const value = top.find("instances");
+    if (!value) return;
+    JsonArray const* const array = value->as<JsonArray>();
+    if (!array) return top.error_at("instances", "found " + value->described() + ", but an array is wanted");
+    std::vector<std::string> names;
+    for (auto const& entry : by_name) names.push_back(entry.first);
+    for (std::size_t i = 0; i < array->size(); ++i) {
+        Fields f(b.context, (*array)[i], fmt::format("instances[{}]", i));
+        f.require("object");
+        auto const name = f.choice("object", names);
+        Transform const transform = read_transform(b, f, "transform");
+        if (name && by_name.contains(*name)) b.scene.instances.push_back({by_name[*name], transform});
+        f.finish();
+    }
+}
+
+// Hash of the bytes of every file the scene is made of, so that two pictures of one scene can be told to be that.
+std::string hash_files(std::vector<std::filesystem::path> const& files) {
+    std::uint64_t hash = 0;
+    for (auto const& path : files) {
+        std::ifstream in(path, std::ios::binary);
+        std::vector<char> const bytes((std::istreambuf_iterator<char>(in)), {});
+        for (char c : bytes) hash = mix_bits(hash * 31 + static_cast<unsigned char>(c));
+        hash = hash_words(hash, bytes.size());
+    }
+    return fmt::format("{:016x}", hash);
+}
+
+void read_everything(SceneBuilder& b, JsonValue const& root) {
+    Fields top(b.context, root, "");
+    b.scene.description = top.text("description").value_or("");
+    b.length_unit_m = top.number("length_unit_m", positive()).value_or(1);
+    b.scene.wavelengths = read_range(top, "wavelengths_nm").value_or(visible_range);
+    b.scene.grid = WavelengthGrid::covering(b.scene.wavelengths);
+    read_camera(b, top);
+    read_film(b, top);
+    read_render(b, top);
+    read_materials(b, top);
+    if (JsonValue const* const shapes = top.find("shapes")) read_shapes(b, *shapes, "shapes", false, b.scene.shapes);
+    read_objects(b, top);
+    if (JsonValue const* const lights = top.find("lights")) read_lights(b, *lights, "lights");
+    top.finish();
+}
+
+std::filesystem::path scene_folder() { return data_folder() / "scenes"; }
+
+}  // namespace
+
+std::unique_ptr<Scene> load_scene(std::filesystem::path const& path) {
+    JsonValue const root = read_json(path);
+    auto scene = std::make_unique<Scene>();
+    scene->name = path.stem().string();
+    ReadContext context{path, path.parent_path(), {}, {}, {path}};
+    SceneBuilder builder{context, *scene, 1, {}, {}};
+    read_everything(builder, root);
+    if (!context.diagnostics.empty()) throw InputError(std::move(context.diagnostics));
+    scene->remarks = std::move(context.remarks);
+    scene->hash = hash_files(context.files_read);
+    scene->accelerator = std::make_unique<Accelerator>(scene->shapes, scene->objects, scene->instances);
+    scene->lights = LightSet(std::move(builder.lights), scene->radius());
+    return scene;
+}
+
+std::vector<ShippedScene> shipped_scenes() {
+    std::vector<ShippedScene> scenes;
+    for (auto const& entry : std::filesystem::directory_iterator(scene_folder())) {
+        if (entry.path().extension() != ".json") continue;
+        JsonValue const root = read_json(entry.path());
+        std::string description;
+        if (JsonObject const* object = root.as<JsonObject>())
+            for (auto const& [key, value] : *object)
+                if (std::string const* s = value.as<std::string>(); s && key == "description") description = *s;
+        scenes.push_back({entry.path().stem().string(), description});
+    }
+    std::ranges::sort(scenes, {}, &ShippedScene::name);
+    return scenes;
+}
+
+std::filesystem::path find_scene(std::string const& file_or_name) {
+    std::error_code ignored;
+    if (std::filesystem::exists(file_or_name, ignored)) return file_or_name;
+    if (file_or_name.find('/') == std::string::npos) {
+        std::filesystem::path const shipped = scene_folder() / (file_or_name + ".json");
+        if (std::filesystem::exists(shipped, ignored)) return shipped;
+    }
+    std::vector<std::string> names;
+    for (ShippedScene const& s : shipped_scenes()) names.push_back(s.name);
+    throw InputError(Diagnostic{{}, "", fmt::format("'{}' is neither a file nor a shipped scene{}", file_or_name,
+                                                    suggestion(file_or_name, names))});
+}
+
+}  // namespace iride

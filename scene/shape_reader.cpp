@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: Apache-2.0
+// Shapes of a scene file.
+#include <fmt/format.h>
+
+#include <array>
+
+#include "scene/readers.h"
+
+namespace iride {
+
+namespace {
+
+using Geometries = std::vector<ShapeGeometry>;
+
+Vector metres(SceneBuilder const& b, VectorDouble const& v) { return (v * b.length_unit_m).cast<float>(); }
+float metres(SceneBuilder const& b, double x) { return static_cast<float>(x * b.length_unit_m); }
+
+void read_sphere(SceneBuilder& b, Fields& f, Geometries& out) {
+    VectorDouble const centre = f.required_vector("centre");
+    out.push_back(Sphere{metres(b, centre), metres(b, f.required_number("radius", positive()))});
+}
+
+void read_quad(SceneBuilder& b, Fields& f, Geometries& out) {
+    JsonValue const* const value = f.require("corners");
+    if (!value) return;
+    JsonArray const* const array = value->as<JsonArray>();
+    if (!array || array->size() != 4) {
+        f.error_at("corners", "found " + value->described() + ", but an array of 4 points is wanted");
+        return;
+    }
+    std::array<VectorDouble, 4> c;
+    for (std::size_t i = 0; i < 4; ++i) {
+        auto const p = read_vector(b.context, (*array)[i], fmt::format("{}[{}]", f.path("corners"), i));
+        if (!p) return;
+        c[i] = *p;
+    }
+    VectorDouble const normal = (c[2] - c[0]).cross(c[3] - c[1]);
+    double const size = std::max((c[2] - c[0]).norm(), (c[3] - c[1]).norm());
+    if (!(normal.norm() > 1e-12 * square(size))) return f.error_at("corners", "the quad has no area");
+    if (std::abs((c[1] - c[0]).dot(normal.normalized())) > 1e-5 * size)
+        return f.error_at("corners", "the four corners are not in one plane");
+    Quad quad;
+    for (std::size_t i = 0; i < 4; ++i) quad.corner[i] = metres(b, c[i]);
+    out.push_back(quad);
+}
+
+void read_disc(SceneBuilder& b, Fields& f, Geometries& out) {
+    VectorDouble const centre = f.required_vector("centre"), normal = f.required_vector("normal");
+    float const radius = metres(b, f.required_number("radius", positive()));
+    if (normal.norm() == 0) return f.error_at("normal", "the normal has length 0");
+    out.push_back(Disc{metres(b, centre), normal.normalized().cast<float>(), radius});
+}
+
+void read_box(SceneBuilder& b, Fields& f, Geometries& out) {
+    f.require("min");
+    f.require("max");
+    auto const low = f.vector("min"), high = f.vector("max");
+    if (!low || !high) return;
+    if (!((*high - *low).minCoeff() > 0)) return f.error("'max' must be above 'min' in every coordinate");
+    // Corner i has bit k set where it takes max in coordinate k.
+    auto const corner = [&](unsigned i) {
+        return metres(b, VectorDouble(i & 1 ? high->x() : low->x(), i & 2 ? high->y() : low->y(),
+                                      i & 4 ? high->z() : low->z()));
+    };
+    constexpr unsigned faces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+    for (auto const& face : faces)
+        out.push_back(Quad{{corner(face[0]), corner(face[1]), corner(face[2]), corner(face[3])}});
+}
+
+void read_frustum(SceneBuilder& b, Fields& f, double radius, double top, Geometries& out) {
+    VectorDouble const from = f.required_vector("from"), to = f.required_vector("to");
+    bool const caps = f.boolean("caps").value_or(true);
+    if ((to - from).norm() == 0) return f.error("'from' and 'to' are the same point");
+    Frustum const side{metres(b, from), metres(b, to), metres(b, radius), metres(b, top)};
+    out.push_back(side);
+    Direction const axis = (side.to - side.from).normalized();
+    if (caps && side.radius > 0) out.push_back(Disc{side.from, -axis, side.radius});
+    if (caps && side.top_radius > 0) out.push_back(Disc{side.to, axis, side.top_radius});
+}
+
+void read_cylinder(SceneBuilder& b, Fields& f, Geometries& out) {
+    double const radius = f.required_number("radius", positive());
+    read_frustum(b, f, radius, radius, out);
+}
+
+void read_cone(SceneBuilder& b, Fields& f, Geometries& out) {
+    double const radius = f.required_number("radius", at_least(0));
+    double const top = f.number("top_radius", at_least(0)).value_or(0);
+    if (radius == 0 && top == 0) f.error("'radius' and 'top_radius' are both 0: the cone has no area");
+    read_frustum(b, f, radius, top, out);
+}
+
+std::optional<Mesh> inline_mesh(SceneBuilder& b, Fields& f) {
+    JsonArray const *const vertices = f.require("vertices")->as<JsonArray>();
+    JsonValue const* const triangle_value = f.require("triangles");
+    JsonArray const *const triangles = triangle_value ? triangle_value->as<JsonArray>() : nullptr;
+    if (!vertices || !triangles) {
+        f.error("'vertices' and 'triangles' are arrays of triples");
+        return std::nullopt;
+    }
+    Mesh mesh;
+    for (std::size_t i = 0; i < vertices->size(); ++i) {
+        auto const p = read_vector(b.context, (*vertices)[i], fmt::format("{}[{}]", f.path("vertices"), i));
+        if (!p) return std::nullopt;
+        mesh.position.push_back(p->cast<float>());
+    }
+    for (std::size_t i = 0; i < triangles->size(); ++i) {
+        std::string const path = fmt::format("{}[{}]", f.path("triangles"), i);
+        auto const t = read_vector(b.context, (*triangles)[i], path);
+        if (!t) return std::nullopt;
+        auto const count = static_cast<double>(vertices->size());
+        if (!(t->minCoeff() >= 0 && t->maxCoeff() < count)) {
+            b.context.error((*triangles)[i], path, fmt::format("vertex numbers are in 0 .. {}", count - 1));
+            return std::nullopt;
+        }
+        mesh.triangle.push_back({static_cast<std::uint32_t>(t->x()), static_cast<std::uint32_t>(t->y()),
+                                 static_cast<std::uint32_t>(t->z())});
+    }
+    return mesh;
+}
+
+void read_mesh_shape(SceneBuilder& b, Fields& f, Geometries& out) {
+    bool const smooth = f.boolean("smooth").value_or(true);
+    std::optional<Mesh> mesh;
+    if (f.find("vertices")) {
+        mesh = inline_mesh(b, f);
+    } else if (f.require("file")) {
+        auto const name = f.text("file");
+        if (!name) return;
+        std::filesystem::path const path = b.context.folder / *name;
+        b.context.guarded(*f.find("file"), f.path("file"), [&] { mesh = read_mesh(path); });
+        b.context.files_read.push_back(path);
+    }
+    if (!mesh) return;
+    if (f.find("vertices")) b.context.guarded(f.value(), f.key_path(), [&] { check_mesh(*mesh, {}); });
+    for (Vector& p : mesh->position) p *= static_cast<float>(b.length_unit_m);
+    out.push_back(MeshShape{std::make_shared<Mesh>(std::move(*mesh)), smooth});
+}
+
+constexpr std::array<ShapeEntry, 7> table{{
+    {"sphere", "centre, radius", read_sphere},
+    {"quad", "four corners of a plane", read_quad},
+    {"disc", "centre, normal, radius", read_disc},
+    {"box", "axis-aligned, min and max", read_box},
+    {"cylinder", "from, to, radius", read_cylinder},
+    {"cone", "from, to, radius, top_radius", read_cone},
+    {"mesh", "triangles of a PLY or OBJ file", read_mesh_shape},
+}};
+
+int material_of(SceneBuilder& b, Fields& f) {
+    JsonValue const* const value = f.require("material");
+    if (!value) return 0;
+    if (value->as<JsonObject>()) return read_material(b, *value, f.path("material"), f.path("material"));
+    auto const name = f.text("material");
+    if (!name) return 0;
+    auto const found = b.material_by_name.find(*name);
+    if (found != b.material_by_name.end()) return found->second;
+    std::vector<std::string> names;
+    for (auto const& entry : b.material_by_name) names.push_back(entry.first);
+    f.error_at("material", fmt::format("unknown material '{}'{}", *name, suggestion(*name, names)));
+    return 0;
+}
+
+double surface_area(ShapeGeometry const& geometry) {
+    struct Area {
+        double operator()(Sphere const& s) const { return 4 * pi_double * square(static_cast<double>(s.radius)); }
+        double operator()(Quad const& q) const { return q.area(); }
+        double operator()(Disc const& d) const { return pi_double * square(static_cast<double>(d.radius)); }
+        double operator()(Frustum const& f) const { return f.area(); }
+        double operator()(MeshShape const& m) const {
+            double total = 0;
+            for (auto const& t : m.mesh->triangle)
+                total += 0.5 * (m.mesh->position[t[1]] - m.mesh->position[t[0]])
+                                   .cross(m.mesh->position[t[2]] - m.mesh->position[t[0]])
+                                   .norm();
+            return total;
+        }
+    };
+    return std::visit(Area{}, geometry);
+}
+
+struct EmissionRead {
+    SpectralFunction radiance;
+    bool two_sided;
+};
+
+std::optional<EmissionRead> read_emission(SceneBuilder& b, Fields& f, bool in_object) {
+    JsonValue const* const value = f.find("emission");
+    if (!value) return std::nullopt;
+    if (in_object) {
+        f.error_at("emission", "a shape inside an object cannot emit: place the lamp in 'shapes'");
+        return std::nullopt;
+    }
+    Fields e(b.context, *value, f.path("emission"));
+    auto const radiance = read_spectrum(b, e, "radiance", emission_kind);
+    bool const two_sided = e.boolean("two_sided").value_or(false);
+    e.finish();
+    return radiance ? std::optional(EmissionRead{*radiance, two_sided}) : std::nullopt;
+}
+
+void read_shape(SceneBuilder& b, JsonValue const& value, std::string const& path, bool in_object,
+                std::vector<Shape>& shapes) {
+    Fields f(b.context, value, path);
+    ShapeEntry const* const entry = find_entry(f, shape_entries());
+    if (!entry) return;
+    Geometries geometries;
+    entry->reader(b, f, geometries);
+    Transform const transform = read_transform(b, f, "transform");
+    int const material = material_of(b, f);
+    bool const flipped = f.boolean("flip").value_or(false);
+    auto const emission = read_emission(b, f, in_object);
+    for (ShapeGeometry& g : geometries) {
+        if (f.find("transform")) apply_transform(b, f, transform, g);
+        Shape shape{std::move(g), material, -1, flipped};
+        if (emission && !(surface_area(shape.geometry) > 0)) {
+            f.error_at("emission", "this emitter has no area");
+        } else if (emission) {
+            double const luminance = luminance_of(emission->radiance);
+            Emitter emitter{Emission(emission->radiance, b.scene.grid), emission->two_sided};
+            shape.light = add_light(b, make_area_light(shape, {std::move(emitter), luminance}), entry->name,
+                                    emission->radiance, luminance);
+        }
+        shapes.push_back(std::move(shape));
+    }
+    f.finish();
+}
+
+}  // namespace
+
+std::span<ShapeEntry const> shape_entries() { return table; }
+
+void read_shapes(SceneBuilder& b, JsonValue const& value, std::string const& path, bool in_object,
+                 std::vector<Shape>& shapes) {
+    JsonArray const* const array = value.as<JsonArray>();
+    if (!array) return b.context.error(value, path, "found " + value.described() + ", but an array of shapes is wanted");
+    for (std::size_t i = 0; i < array->size(); ++i)
+        read_shape(b, (*array)[i], fmt::format("{}[{}]", path, i), in_object, shapes);
+}
+
+}  // namespace iride
