@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "integrators/integrator.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "integrators/path.h"
+
+namespace iride {
+
+namespace {
+
+constexpr std::array<IntegratorEntry, 2> table{{
+    {"path", "path tracing: light sampling and scattering, unbiased", make_path},
+    {"reference_path", "path tracing by scattering alone: slow, the oracle of the others", make_reference_path},
+}};
+
+}  // namespace
+
+std::span<IntegratorEntry const> integrator_entries() { return table; }
+
+std::unique_ptr<Integrator> make_integrator(std::string const& name, RenderPlan const& plan) {
+    std::vector<std::string> names;
+    for (IntegratorEntry const& e : table) {
+        if (name == e.name) return e.make(plan);
+        names.emplace_back(e.name);
+    }
+    throw InputError(Diagnostic{{}, "integrator", fmt::format("unknown integrator '{}'{}", name, suggestion(name, names))});
+}
+
+}  // namespace iride

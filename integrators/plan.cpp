@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "integrators/plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace iride {
+
+namespace {
+
+std::string names_of(Scene const& scene, bool (*wanted)(NamedMaterial const&)) {
+    std::string names;
+    for (NamedMaterial const& m : scene.materials)
+        if (wanted(m)) names += (names.empty() ? "" : ", ") + m.name;
+    return names;
+}
+
+// The union of the lamps' spectra, cut to what observer and bands can see.
+WavelengthRange seen_range(Scene const& scene) {
+    WavelengthRange lit{scene.wavelengths.max_nm, scene.wavelengths.min_nm};
+    for (LightDescription const& light : scene.light_descriptions) {
+        lit.min_nm = std::min(lit.min_nm, light.nonzero.min_nm);
+        lit.max_nm = std::max(lit.max_nm, light.nonzero.max_nm);
+    }
+    WavelengthRange seen = visible_range;
+    if (scene.film.band_count > 0) {
+        seen.min_nm = std::min(seen.min_nm, scene.film.band_range.min_nm);
+        seen.max_nm = std::max(seen.max_nm, scene.film.band_range.max_nm);
+    }
+    WavelengthRange const both{std::max({lit.min_nm, seen.min_nm, scene.wavelengths.min_nm}),
+                               std::min({lit.max_nm, seen.max_nm, scene.wavelengths.max_nm})};
+    // No overlap: the picture is black, whatever is sampled.
+    return both.min_nm < both.max_nm ? both : scene.wavelengths;
+}
+
+}  // namespace
+
+RenderPlan make_plan(Scene const& scene) {
+    RenderPlan plan;
+    auto const decide = [&](std::string name, bool used, std::string reason) {
+        plan.decisions.push_back({std::move(name), used, std::move(reason)});
+        return used;
+    };
+
+    std::string const dispersive = names_of(scene, [](auto const& m) { return m.material->is_dispersive(); });
+    plan.dispersion = decide("dispersion", !dispersive.empty(),
+                             dispersive.empty() ? "no index of a transparent body depends on wavelength: all lanes share "
+                                                  "every path, their reach is not carried"
+                                                : "wavelengths part company in: " + dispersive);
+
+    plan.environment = decide("environment", !scene.lights.environments().empty(),
+                              scene.lights.environments().empty() ? "no light from infinity: a ray that leaves the scene "
+                                                                    "ends its path"
+                                                                  : "rays that leave the scene bring light");
+
+    std::string const finite = names_of(scene, [](auto const& m) {
+        return m.type == "diffuse" || (m.type == "conductor" && m.material->at({}, {}).has_density());
+    });
+    bool const lamps = scene.lights.choose(0).has_value();
+    plan.light_sampling = decide("light sampling", lamps && !finite.empty(),
+                                 !lamps           ? "no light has any power"
+                                 : finite.empty() ? "every surface is a mirror, glass or black: lamps are found by "
+                                                    "scattering alone"
+                                                  : fmt::format("{} lights, chosen by power", scene.lights.size()));
+
+    bool const smooth = std::ranges::any_of(scene.shapes, [](Shape const& s) {
+        auto const* m = std::get_if<MeshShape>(&s.geometry);
+        return m && m->smooth && !m->mesh->normal.empty();
+    });
+    decide("smooth normals", smooth, smooth ? "a mesh has vertex normals" : "no mesh has vertex normals");
+    decide("instances", !scene.instances.empty(), fmt::format("{} in the scene", scene.instances.size()));
+
+    plan.wavelengths = seen_range(scene);
+    decide("wavelengths", true,
+           fmt::format("{:g}..{:g} nm of {:g}..{:g}: where the lamps shine and the {} sees", plan.wavelengths.min_nm,
+                       plan.wavelengths.max_nm, scene.wavelengths.min_nm, scene.wavelengths.max_nm,
+                       scene.film.band_count > 0 ? "observer or a band" : "observer"));
+
+    plan.bands = decide("spectral bands", scene.film.band_count > 0,
+                        scene.film.band_count > 0
+                            ? fmt::format("{} of {:g} nm", scene.film.band_count,
+                                          scene.film.band_range.width() / scene.film.band_count)
+                            : "none asked for: wavelengths are drawn for the observer alone");
+
+    plan.max_bounces = scene.render.max_bounces;
+    decide("bounce limit", plan.max_bounces.has_value(),
+           plan.max_bounces ? fmt::format("{} (the file's wish: light beyond is left out)", *plan.max_bounces)
+                            : "none: Russian roulette ends paths without bias");
+    return plan;
+}
+
+}  // namespace iride

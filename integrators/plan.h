@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a scene needs and what it does not: found once before rendering, so that the kernels carry nothing in vain.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace iride {
+
+struct RenderPlan {
+    bool dispersion = false;             // lanes part company somewhere: carry their reach
+    bool light_sampling = true;          // some light can be sampled, and some surface can use it
+    bool environment = false;            // paths that leave the scene may bring radiance
+    WavelengthRange wavelengths;         // where lamps and (observer or bands) overlap: what is sampled
+    bool bands = false;
+    std::optional<int> max_bounces;
+
+    struct Decision {
+        std::string name;
+        bool used;
+        std::string reason;
+    };
+    std::vector<Decision> decisions;
+};
+
+RenderPlan make_plan(Scene const& scene);
+
+}  // namespace iride

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// The oracle: follow the BSDF, add what emits, nothing clever. Noisy and right. Lights without extent are the one thing
+// that scattering cannot find; they are added directly, there is no other way to reach them.
+#include "integrators/path.h"
+#include "integrators/scattering.h"
+
+namespace iride {
+
+namespace {
+
+class ReferencePath final : public Integrator {
+  public:
+    explicit ReferencePath(RenderPlan const& plan) : max_bounces_(plan.max_bounces.value_or(longest_path)) {}
+
+    PathResult radiance(Scene const& scene, Ray ray, Wavelengths const& wavelengths, Sampler& sampler,
+                        RayStatistics& statistics) const override {
+        Radiance L;
+        PathState state;
+        for (int bounce = 0;; ++bounce) {
+            // Mixture over lanes only: divide by the mean reach.
+            float const per_reach = 1 / mean(state.reach);
+            std::optional<Hit> const hit = scene.accelerator->closest(ray, statistics);
+            if (!hit) {
+                for (int e : scene.lights.environments())
+                    L += state.weight * scene.lights.light(e).arriving(ray.direction, wavelengths) * per_reach;
+                return {L};
+            }
+            L += state.weight * emitted_at(scene, *hit, ray, wavelengths) * per_reach;
+            if (bounce >= max_bounces_) return {L, max_bounces_ < longest_path};
+
+            sampler.begin_vertex(static_cast<std::uint32_t>(bounce));
+            Interaction const here(scene, *hit, -ray.direction, wavelengths);
+            for (std::size_t i = 0; i < scene.lights.size(); ++i)
+                L += dirac_light(scene, static_cast<int>(i), *hit, here, wavelengths, state, statistics);
+            auto const sample = here.bsdf.sample(here.wo, {sampler.next(), sampler.next2()});
+            if (!sample) return {L};
+            Direction const wi = here.frame.to_world(sample->wi);
+            if (!here.is_consistent(wi, sample->wi)) return {L};
+            state.weight *= sample->weight;
+            state.reach *= sample->reach;
+            ray = spawn_ray(hit->point, wi);
+            if (bounce >= 3 && !survives<true>(state, sampler.next())) return {L};
+        }
+    }
+
+  private:
+    static Radiance dirac_light(Scene const& scene, int index, Hit const& hit, Interaction const& here,
+                                Wavelengths const& wavelengths, PathState const& state, RayStatistics& statistics) {
+        auto const light = scene.lights.light(index).sample(hit.point.position, wavelengths, {0.5f, 0.5f});
+        if (!light || light->density) return {};
+        Direction const wi = here.frame.to_local(light->wi);
+        BsdfValue const f = here.bsdf.evaluate(here.wo, wi).value;
+        if (is_black(f) || !here.is_consistent(light->wi, wi)) return {};
+        if (scene.accelerator->occluded(spawn_shadow_ray(hit.point, light->wi, light->distance), statistics)) return {};
+        Lanes const scattered(f.lane * std::abs(wi.z()));  // per steradian, times the light's Dirac steradian
+        return state.weight * scattered * light->radiance * (1 / mean(state.reach));
+    }
+
+    int max_bounces_;
+};
+
+}  // namespace
+
+std::unique_ptr<Integrator> make_reference_path(RenderPlan const& plan) { return std::make_unique<ReferencePath>(plan); }
+
+}  // namespace iride

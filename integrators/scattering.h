@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the path integrators share: the state of a path, the frame of a closure, emission where a path ends, roulette.
+#pragma once
+
+#include <cmath>
+
+#include "integrators/integrator.h"
+
+namespace iride {
+
+struct PathState {
+    Throughput weight{1.0f};  // product of f |cos| / p_hero
+    Lanes reach{1.0f};        // product of p_lane / p_hero; 0: this lane could not have come this way
+};
+
+// A surface point met from direction `to_viewer`: closure, and the frame its directions are in.
+struct Interaction {
+    Bsdf bsdf;
+    Frame frame;
+    Direction geometric_normal;
+    Direction wo;  // local
+
+    Interaction(Scene const& scene, Hit const& hit, Direction const& to_viewer, Wavelengths const& wavelengths)
+        : Interaction(scene.material(hit.shape->material), hit, to_viewer, wavelengths) {}
+
+    // Whether wi (world) leaves on the side of the surface that the local wi says: a shading normal may disagree with
+    // the geometry, and light must not leak through.
+    bool is_consistent(Direction const& wi_world, Direction const& wi) const {
+        return (wi_world.dot(geometric_normal) > 0) == (wi.z() > 0);
+    }
+
+  private:
+    Interaction(Material const& material, Hit const& hit, Direction const& to_viewer, Wavelengths const& wavelengths)
+        : bsdf(material.at(hit.point, wavelengths)), frame(hit.point.frame), geometric_normal(hit.point.geometric_normal) {
+        if (material.is_two_sided() && to_viewer.dot(geometric_normal) < 0) {
+            geometric_normal = -geometric_normal;
+            frame = Frame::around(-frame.normal);
+        }
+        wo = frame.to_local(to_viewer);
+        // Seen from behind the shading normal but before the surface: as good as grazing.
+        if ((wo.z() > 0) != (to_viewer.dot(geometric_normal) > 0)) {
+            frame = Frame::around(geometric_normal);
+            wo = frame.to_local(to_viewer);
+        }
+    }
+};
+
+// Radiance that the hit surface emits back along the ray.
+inline Radiance emitted_at(Scene const& scene, Hit const& hit, Ray const& ray, Wavelengths const& wavelengths) {
+    if (hit.shape->light < 0) return {};
+    return scene.lights.light(hit.shape->light).emitted(hit.point, -ray.direction, wavelengths);
+}
+
+// Russian roulette: go on with probability q = min(1, largest lane of the throughput) and divide by q. Throughput is
+// weight / mean(reach), which does not depend on which lane is the hero. With q >= the albedo of the last scattering
+// the variance is finite (q > rho^2); nothing is cut off. [Arvo 1990]
+template <bool Dispersive>
+bool survives(PathState& state, float u) {
+    float const scale = Dispersive ? float(mean(state.reach)) : 1.0f;
+    float const q = std::min(1.0f, largest(state.weight) / scale);
+    if (!(u < q)) return false;
+    state.weight /= q;
+    return true;
+}
+
+}  // namespace iride
