@@ -57,7 +57,7 @@ inline Radiance emitted_at(Scene const& scene, Hit const& hit, Ray const& ray, W
 template <bool Dispersive>
 bool survives(PathState& state, float u) {
     float const scale = Dispersive ? float(mean(state.reach)) : 1.0f;
-    float const q = std::min(1.0f, largest(state.weight) / scale);
+    float const q = std::min(1.0f, largest(state.weight).value / scale);
     if (!(u < q)) return false;
     state.weight /= q;
     return true;

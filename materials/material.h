@@ -51,6 +51,8 @@ class Material {
     virtual bool is_two_sided() const { return true; }
     // Whether wavelengths part company here.
     virtual bool is_dispersive() const { return false; }
+    // Whether some closure of this material has a density: if none has, light sampling is in vain.
+    virtual bool has_density() const { return true; }
 };
 
 class DiffuseMaterial : public Material {
@@ -65,6 +67,7 @@ class DiffuseMaterial : public Material {
 class BlackMaterial : public Material {
   public:
     Bsdf at(SurfacePoint const&, Wavelengths const&) const override { return Black{}; }
+    bool has_density() const override { return false; }
 };
 
 class ConductorMaterial : public Material {
@@ -75,6 +78,7 @@ class ConductorMaterial : public Material {
         if (roughness_ == 0) return SmoothConductor{n_.at(w), k_.at(w)};
         return RoughConductor{n_.at(w), k_.at(w), {roughness_}};
     }
+    bool has_density() const override { return roughness_ > 0; }
 
   private:
     Index n_, k_;
@@ -88,6 +92,7 @@ class DielectricMaterial : public Material {
         return SmoothDielectric{inside_.at(w), outside_.at(w)};
     }
     bool is_two_sided() const override { return false; }
+    bool has_density() const override { return false; }
     bool is_dispersive() const override { return !inside_.is_constant() || !outside_.is_constant(); }
 
   private:
