@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "spectral/wavelengths.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace iride {
+
+WavelengthGrid WavelengthGrid::covering(WavelengthRange const& range) {
+    int const first = static_cast<int>(std::floor(range.min_nm)), last = static_cast<int>(std::ceil(range.max_nm));
+    return {first, std::max(2, last - first + 1)};
+}
+
+WavelengthSampler::WavelengthSampler(WavelengthRange const& range, SpectralFunction const& importance,
+                                     WavelengthGrid const& grid)
+    : range_(range), grid_first_nm_(grid.first_nm), grid_cells_(grid.count - 1) {
+    // Cumulative of the floored importance by the midpoint rule, then its inverse at equal steps.
+    constexpr int steps = 8192;
+    constexpr double floor_share = 1e-3;  // of the mean: the least density, relative to a uniform one
+    double const dx = range.width() / steps, mean = importance.integral(range) / range.width();
+    std::vector<double> cumulative{0};
+    for (int i = 0; i < steps; ++i) {
+        double const wanted = mean > 0 ? importance.at(range.min_nm + (i + 0.5) * dx) / mean : 1;
+        cumulative.push_back(cumulative.back() + std::max(wanted, floor_share));
+    }
+    std::size_t at = 0;
+    for (int k = 0; k <= segment_count; ++k) {
+        double const target = cumulative.back() * k / segment_count;
+        while (at + 2 < cumulative.size() && cumulative[at + 1] < target) ++at;
+        double const f = (target - cumulative[at]) / (cumulative[at + 1] - cumulative[at]);
+        knot_nm_.push_back(static_cast<float>(range.min_nm + (static_cast<double>(at) + f) * dx));
+    }
+    knot_nm_.front() = static_cast<float>(range.min_nm);
+    knot_nm_.back() = static_cast<float>(range.max_nm);
+}
+
+Wavelengths WavelengthSampler::sample(float u) const {
+    static_assert(segment_count % lane_count == 0);
+    float const scaled = u * segment_count;
+    int const hero_segment = std::min(static_cast<int>(scaled), segment_count - 1);
+    float const f = scaled - static_cast<float>(hero_segment);
+    Wavelengths w;
+    for (int i = 0; i < lane_count; ++i) {
+        int const segment = (hero_segment + i * (segment_count / lane_count)) % segment_count;
+        float const low = knot_nm_[static_cast<std::size_t>(segment)];
+        float const width = knot_nm_[static_cast<std::size_t>(segment) + 1] - low;
+        float const nm = low + f * width;
+        float const on_grid = nm - static_cast<float>(grid_first_nm_);
+        int const cell = std::min(static_cast<int>(on_grid), grid_cells_ - 1);
+        w.nm[i] = nm;
+        w.density.set(i, 1 / (segment_count * width));
+        w.cell[i] = cell;
+        w.fraction[i] = on_grid - static_cast<float>(cell);
+    }
+    return w;
+}
+
+SpectralFunction visible_importance() {
+    // VISIBLE
+    TabulatedShape table;
+    for (double nm = visible_range.min_nm; nm <= visible_range.max_nm; ++nm) {
+        auto const bump = [&](double centre, double scale) { return 1 / square(std::cosh((nm - centre) / scale)); };
+        table.nm.push_back(nm);
+        table.value.push_back(bump(538, 138.889));
+    }
+    return SpectralFunction(std::move(table), Outside::hold, "visible importance");
+}
+
+}  // namespace iride
