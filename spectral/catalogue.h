@@ -9,6 +9,8 @@
 #include <variant>
 #include <vector>
 
+#include "base/diagnostics.h"
+
 #include "spectral/complex_index.h"
 #include "spectral/spectral_function.h"
 

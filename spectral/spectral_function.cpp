@@ -18,7 +18,7 @@ double evaluate(ConstantShape const& c, Outside, double) { return c.value; }
 double evaluate(BlackbodyShape const& b, Outside, double nm) { return planck_radiance(nm, b.temperature_K); }
 
 double evaluate(TabulatedShape const& t, Outside outside, double nm) {
-    bool const before = nm < t.nm.front(), after = nm > t.nm.back();
+    bool const before = nm<t.nm.front(), after = nm> t.nm.back();
     if ((before || after) && outside == Outside::zero) return 0;
     if ((before || after) && outside != Outside::extrapolate) return before ? t.value.front() : t.value.back();
     auto const above = std::upper_bound(t.nm.begin(), t.nm.end(), nm);
@@ -99,8 +99,8 @@ double SpectralFunction::integral(WavelengthRange const& range, SpectralFunction
         // Two-point Gauss rule: exact up to cubics, so for the product of two linear pieces; never touches a knot.
         double const half = (all[i + 1] - all[i]) / 2, middle = (all[i + 1] + all[i]) / 2;
         double const offset = half / std::sqrt(3.0);
-        total += half * (at(middle - offset) * weight.at(middle - offset) +
-                         at(middle + offset) * weight.at(middle + offset));
+        total += half *
+                 (at(middle - offset) * weight.at(middle - offset) + at(middle + offset) * weight.at(middle + offset));
     }
     return total;
 }

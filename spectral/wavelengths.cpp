@@ -59,7 +59,7 @@ SpectralFunction visible_importance() {
     // VISIBLE
     TabulatedShape table;
     for (double nm = visible_range.min_nm; nm <= visible_range.max_nm; ++nm) {
-        auto const bump = [&](double centre, double scale) { return 1 / square(std::cosh((nm - centre) / scale)); };
+        auto const bump = [&](double centre, double scale) { return std::pow(std::cosh((nm - centre) / scale), -2); };
         table.nm.push_back(nm);
         table.value.push_back(bump(538, 138.889));
     }

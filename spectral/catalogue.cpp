@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "spectral/catalogue.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+
+#include "base/diagnostics.h"
+
+namespace iride {
+
+namespace {
+
+struct Entry {
+    std::string file, column;  // column "nk": n and k
+};
+
+[[noreturn]] void fail(std::string const& message) { throw InputError(Diagnostic{{}, "", message}); }
+
+// catalogue.csv, read once.
+std::map<std::string, Entry> const& catalogue() {
+    static std::map<std::string, Entry> const entries = [] {
+        std::map<std::string, Entry> all;
+        std::filesystem::path const path = data_folder() / "catalogue.csv";
+        std::ifstream in(path);
+        if (!in) fail("the shipped data are missing: " + path.string());
+        for (std::string line; std::getline(in, line);) {
+            auto const first = line.find(','), second = line.rfind(',');
+            if (line.empty() || line[0] == '#' || first == second || line.starts_with("name,")) continue;
+            all[line.substr(0, first)] = {line.substr(first + 1, second - first - 1), line.substr(second + 1)};
+        }
+        return all;
+    }();
+    return entries;
+}
+
+bool is_index(std::string const& column) { return column == "nk" || column == "n"; }
+
+char const* described(SpectralQuantity quantity) {
+    switch (quantity) {
+        case SpectralQuantity::complex_index:
+            return "an index of refraction";
+        case SpectralQuantity::reflectance:
+            return "a reflectance";
+        case SpectralQuantity::power:
+            return "a spectral power";
+        case SpectralQuantity::radiance:
+            return "a radiance";
+        case SpectralQuantity::matching_functions:
+            return "matching functions";
+        case SpectralQuantity::transmittance:
+            return "a transmittance";
+    }
+    return "";
+}
+
+// Illuminants and radiances serve as emissions alike.
+bool serves(std::string const& column, SpectralQuantity quantity) {
+    bool const emission = column == "power" || column == "radiance";
+    if (quantity == SpectralQuantity::complex_index) return is_index(column);
+    if (quantity == SpectralQuantity::power || quantity == SpectralQuantity::radiance) return emission;
+    return !emission && !is_index(column);
+}
+
+std::string unknown(std::string const& name, SpectralQuantity quantity) {
+    std::string const near = nearest_name(name, catalogue_names(quantity));
+    return fmt::format(
+        "'{}' is neither a shipped {} nor a file{}", name, described(quantity) + 2,
+        near.empty() ? std::string("; data/README.md lists the names") : fmt::format("; did you mean '{}'?", near));
+}
+
+TabulatedShape table_of(SpectrumFile const& file, std::string const& column) {
+    auto const found = file.column.find(column);
+    if (found == file.column.end())
+        throw InputError(Diagnostic{
+            {file.path.string()}, "", fmt::format("no column '{}'{}", column, suggestion(column, file.column_order))});
+    return {file.wavelength_nm, found->second};
+}
+
+}  // namespace
+
+std::filesystem::path data_folder() {
+    char const* const chosen = std::getenv("IRIDE_DATA");
+    return chosen && *chosen ? chosen : IRIDE_DATA_DIR;
+}
+
+std::vector<std::string> catalogue_names(SpectralQuantity quantity) {
+    std::vector<std::string> names;
+    for (auto const& [name, entry] : catalogue())
+        if (serves(entry.column, quantity)) names.push_back(name);
+    return names;
+}
+
+bool in_catalogue(std::string const& name) { return catalogue().contains(name); }
+
+ComplexIndex load_complex_index(std::string const& name, std::filesystem::path const& folder) {
+    auto const entry = catalogue().find(name);
+    std::filesystem::path path = folder / name;
+    if (entry != catalogue().end()) {
+        if (!is_index(entry->second.column)) fail(fmt::format("'{}' is no index of refraction", name));
+        path = data_folder() / entry->second.file;
+    } else if (!std::filesystem::exists(path)) {
+        fail(unknown(name, SpectralQuantity::complex_index));
+    }
+    SpectrumFile const file = read_spectrum_file(path);
+    ComplexIndex index;
+    if (!file.formula.empty()) {
+        index.n = SpectralFunction(file.formula.front(), Outside::error, name);
+        return index;
+    }
+    index.n = SpectralFunction(table_of(file, "n"), Outside::error, name);
+    if (file.column.contains("k")) index.k = SpectralFunction(table_of(file, "k"), Outside::error, name);
+    return index;
+}
+
+SpectralFunction load_spectrum(std::string const& name, SpectralQuantity quantity,
+                               std::filesystem::path const& folder) {
+    Outside const outside = quantity == SpectralQuantity::complex_index ? Outside::error
+                            : quantity == SpectralQuantity::reflectance ? Outside::hold
+                                                                        : Outside::zero;
+    if (auto const entry = catalogue().find(name); entry != catalogue().end()) {
+        if (!serves(entry->second.column, quantity)) fail(fmt::format("'{}' is not {}", name, described(quantity)));
+        SpectrumFile const file = read_spectrum_file(data_folder() / entry->second.file);
+        return SpectralFunction(table_of(file, entry->second.column), outside, name);
+    }
+    // A path, perhaps with ":column".
+    std::filesystem::path path = folder / name;
+    std::string column;
+    if (auto const colon = name.rfind(':'); !std::filesystem::exists(path) && colon != std::string::npos) {
+        path = folder / name.substr(0, colon);
+        column = name.substr(colon + 1);
+    }
+    if (!std::filesystem::exists(path)) fail(unknown(name, quantity));
+    SpectrumFile const file = read_spectrum_file(path);
+    if (!file.formula.empty()) return SpectralFunction(file.formula.front(), outside, name);
+    if (column.empty() && file.column_order.size() != 1)
+        throw InputError(Diagnostic{{path.string()},
+                                    "",
+                                    fmt::format("holds {} columns: choose one as '{}:{}'", file.column_order.size(),
+                                                name, file.column_order.front())});
+    return SpectralFunction(table_of(file, column.empty() ? file.column_order.front() : column), outside, name);
+}
+
+}  // namespace iride
