@@ -8,9 +8,9 @@ namespace iride {
 
 struct Comparison {
     int width, height;
-    double mse, rmse;                                 // mean over pixels and X, Y, Z of (a - b)^2, and its root
-    double relmse;                                    // ... of (a - b)^2 / (b^2 + .01), b the second picture
-    double delta_e_2000_mean, delta_e_2000_max;       // CIEDE2000 of Lab under white D65 with Y = 1
+    double mse, rmse;                            // mean over pixels and X, Y, Z of (a - b)^2, and its root
+    double relmse;                               // ... of (a - b)^2 / (b^2 + .01), b the second picture
+    double delta_e_2000_mean, delta_e_2000_max;  // CIEDE2000 of Lab under white D65 with Y = 1
 };
 
 // Throws InputError if the sizes differ.

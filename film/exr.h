@@ -35,7 +35,8 @@ void write_exr(Film const& film, ExrSettings const& settings, std::filesystem::p
 
 // A picture read back as XYZ: from its X Y Z channels, or R G B by its own chromaticities (linear Rec.709 if it names
 // none) and, if it has a sceneWhite, with the adaptation undone. `variance` is empty unless the file has it (and then
-// refers to exposure 1). Any OpenEXR file; throws InputError if it is missing, truncated, no EXR, deep or has no colour.
+// refers to exposure 1). Any OpenEXR file; throws InputError if it is missing, truncated, no EXR, deep or has no
+// colour.
 struct XyzPicture {
     Image<Xyz> xyz, variance;
     double exposure = 1;

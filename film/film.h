@@ -4,8 +4,8 @@
 //   to XYZ:      L_i observer(lambda_i) / (N p_i integral of ybar)         N = number of lanes
 //   to its band: L_i / (N p_i band width)
 // so the two outputs cannot disagree, whatever the density. Pixels are means over their samples (reconstruction filters
-// are importance sampled, every sample has weight 1). The lanes of a sample share their path, so the noise of bands that
-// lie 1 / N of the sampling interval apart is correlated.
+// are importance sampled, every sample has weight 1). The lanes of a sample share their path, so the noise of bands
+// that lie 1 / N of the sampling interval apart is correlated.
 #pragma once
 
 #include <array>
@@ -65,11 +65,17 @@ class Film {
         std::array<std::uint32_t, rejection_count> rejected{};
     };
 
+    std::array<float, 4> response(double nm) const;
+    void add_to_bands(int x, int y, Wavelengths const& wavelengths,
+                      Sampled<dim::spectral_radiance / dim::per_nanometre> power);
+    std::size_t band_offset(int x, int y) const;
+
     Image<Pixel> pixels_;
-    std::vector<double> band_sum_;           // [height][width][band]
+    std::vector<double> band_sum_;                // [height][width][band]
     std::vector<std::array<float, 4>> response_;  // [grid.count] xbar, ybar, zbar over the integral of ybar; 4th unused
     Observer const& observer_;
     std::optional<Bands> bands_;
+    bool exact_observer_;  // an observer of steps (bands of a sensor) is not linear between whole nanometres
 };
 
 }  // namespace iride
