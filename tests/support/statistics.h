@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// Statistical verdicts of the tests: chi-squared of directions against a density, and normal tails.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "base/vector.h"
+
+namespace iride::test {
+
+// Upper tail of the chi-squared distribution by the regularised incomplete gamma function. [Press 2007, sec. 6.2]
+inline double chi_squared_tail(double statistic, int degrees) {
+    double const a = degrees / 2.0, x = statistic / 2;
+    if (x <= 0) return 1;
+    double const front = std::exp(-x + a * std::log(x) - std::lgamma(a));
+    if (x < a + 1) {
+        double term = 1 / a, sum = term;
+        for (double n = a + 1; std::abs(term) > 1e-15 * sum; ++n) sum += term *= x / n;
+        return 1 - sum * front;
+    }
+    double b = x + 1 - a, c = 1e300, d = 1 / b, h = d;
+    for (int i = 1; i < 10000; ++i) {
+        double const an = -i * (i - a);
+        b += 2;
+        d = 1 / (an * d + b);
+        c = b + an / c;
+        h *= d * c;
+        if (std::abs(d * c - 1) < 1e-15) break;
+    }
+    return front * h;
+}
+
+// Directions on the sphere in cells of equal cos(theta) and phi: counts against the integral of a density. Cells with
+// an expectation below 5 are pooled. Returns the p-value.
+class DirectionHistogram {
+  public:
+    explicit DirectionHistogram(int rows = 20, int columns = 40)
+        : rows_(rows), columns_(columns), count_(static_cast<std::size_t>(rows * columns), 0.0) {}
+
+    void add(Direction const& w) {
+        ++total_;
+        ++count_[cell(w)];
+    }
+    void add_nothing() { ++total_; }  // a sample that failed: the density's integral is below 1
+
+    // density [1/sr], integrated by an `n` x `n` midpoint rule in every cell.
+    double p_value(std::function<double(Direction const&)> const& density, int n = 16) const {
+        double statistic = 0, pooled_expected = 0, pooled_count = 0, expected_sum = 0;
+        int cells = 0;
+        auto const account = [&](double expected, double count) {
+            statistic += square(count - expected) / expected;
+            ++cells;
+        };
+        for (int r = 0; r < rows_; ++r)
+            for (int c = 0; c < columns_; ++c) {
+                double const expected = total_ * integral(density, r, c, n);
+                double const count = count_[static_cast<std::size_t>(r * columns_ + c)];
+                expected_sum += expected;
+                if (expected >= 5) account(expected, count);
+                else pooled_expected += expected, pooled_count += count;
+            }
+        double const lost = total_ - expected_sum;  // directions that cannot be
+        double counted = 0;
+        for (double k : count_) counted += k;
+        if (lost > 5) account(lost, total_ - counted);
+        if (pooled_expected >= 5) account(pooled_expected, pooled_count);
+        else if (pooled_count > 25 + 5 * pooled_expected) return 0;  // samples where there is no density
+        return chi_squared_tail(statistic, cells - 1);
+    }
+    double integral_of(std::function<double(Direction const&)> const& density, int n = 16) const {
+        double sum = 0;
+        for (int r = 0; r < rows_; ++r)
+            for (int c = 0; c < columns_; ++c) sum += integral(density, r, c, n);
+        return sum;
+    }
+
+  private:
+    std::size_t cell(Direction const& w) const {
+        int const r = std::clamp(static_cast<int>((static_cast<double>(w.z()) + 1) / 2 * rows_), 0, rows_ - 1);
+        double const turn = std::atan2(static_cast<double>(w.y()), static_cast<double>(w.x())) / (2 * pi_double) + 0.5;
+        int const c = std::clamp(static_cast<int>(turn * columns_), 0, columns_ - 1);
+        return static_cast<std::size_t>(r * columns_ + c);
+    }
+    double integral(std::function<double(Direction const&)> const& density, int r, int c, int n) const {
+        double sum = 0;
+        double const dz = 2.0 / rows_ / n, dphi = 2 * pi_double / columns_ / n;
+        for (int i = 0; i < n; ++i)
+            for (int j = 0; j < n; ++j) {
+                double const z = -1 + (r * n + i + 0.5) * dz, phi = -pi_double + (c * n + j + 0.5) * dphi;
+                double const s = std::sqrt(std::max(0.0, 1 - z * z));
+                sum += density(VectorDouble(s * std::cos(phi), s * std::sin(phi), z).cast<float>());
+            }
+        return sum * dz * dphi;
+    }
+
+    int rows_, columns_;
+    std::vector<double> count_;
+    double total_ = 0;
+};
+
+}  // namespace iride::test
