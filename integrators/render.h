@@ -14,23 +14,23 @@
 namespace iride {
 
 struct RenderSettings {
-    int spp = 64;                           // the most samples per pixel
-    std::optional<double> seconds;          // stop at the end of a pass after this time
-    std::optional<double> relative_error;   // stop when Film::relative_error() is at most this
+    int spp = 64;                               // the most samples per pixel
+    std::optional<double> seconds = {};         // stop at the end of a pass after this time
+    std::optional<double> relative_error = {};  // stop when Film::relative_error() is at most this
     std::uint64_t seed = 0;
     SamplerKind sampler = SamplerKind::sobol;
-    int threads = 0;                        // 0: all
-    bool reversed_tiles = false;            // another tile order, for the test that it does not matter
-    std::atomic<bool> const* interrupted = nullptr;                 // stop soon, keep what is there
-    std::function<void(int done_spp, double share)> on_progress;    // share of the whole work, 0 .. 1
+    int threads = 0;                                 // 0: all
+    bool reversed_tiles = false;                     // another tile order, for the test that it does not matter
+    std::atomic<bool> const* interrupted = nullptr;  // stop soon, keep what is there
+    std::function<void(int done_spp, double share)> on_progress = {};  // share of the whole work, 0 .. 1
 };
 
 struct RenderReport {
-    int spp = 0;               // samples per pixel of the finished passes
+    int spp = 0;  // samples per pixel of the finished passes
     double seconds = 0;
     std::uint64_t paths = 0;
     RayStatistics rays;
-    double embree_share = 0;   // of the sampling loop's time, from every 64th path
+    double embree_share = 0;  // of the sampling loop's time, from every 64th path
     bool interrupted = false;
 };
 
