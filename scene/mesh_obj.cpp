@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Wavefront OBJ: `v x y z`, `vt u v`, `vn x y z` and faces `f v/vt/vn ...` with indices from 1, or from the end if
-// negative. Grouping, smoothing and material statements are passed over; curves and surfaces are refused. [Wavefront
-// 1995]
+// negative. Grouping, smoothing and material statements are passed over; curves and surfaces are refused.
+// [Wavefront 1995]
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
