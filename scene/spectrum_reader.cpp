@@ -30,7 +30,8 @@ std::optional<SpectralFunction> from_pairs(SceneBuilder& b, JsonValue const& val
                                            SpectrumKind const& kind) {
     JsonArray const* const array = value.as<JsonArray>();
     if (!array || array->empty()) {
-        b.context.error(value, path, "found " + value.described() + ", but an array of [wavelength_nm, value] is wanted");
+        b.context.error(value, path,
+                        "found " + value.described() + ", but an array of [wavelength_nm, value] is wanted");
         return std::nullopt;
     }
     TabulatedShape table;
@@ -38,8 +39,8 @@ std::optional<SpectralFunction> from_pairs(SceneBuilder& b, JsonValue const& val
         auto const pair = read_numbers(b.context, element, path, 2);
         if (!pair) return std::nullopt;
         if (!table.nm.empty() && (*pair)[0] <= table.nm.back()) {
-            b.context.error(element, path, fmt::format("wavelength {} after {}: they must increase", (*pair)[0],
-                                                       table.nm.back()));
+            b.context.error(element, path,
+                            fmt::format("wavelength {} after {}: they must increase", (*pair)[0], table.nm.back()));
             return std::nullopt;
         }
         table.nm.push_back((*pair)[0]);
@@ -78,18 +79,24 @@ std::optional<SpectralFunction> from_object(SceneBuilder& b, JsonValue const& va
     } else if (pairs) {
         result = from_pairs(b, *pairs, o.path("pairs"), kind);
     } else if (blackbody) {
-        if (kind.quantity != SpectralQuantity::radiance) o.error_at("blackbody_K", "only an emission can be a blackbody");
+        if (kind.quantity != SpectralQuantity::radiance)
+            o.error_at("blackbody_K", "only an emission can be a blackbody");
         else if (auto const T = o.number("blackbody_K", between(100, 1e6)))
             result = SpectralFunction(BlackbodyShape{*T}, Outside::hold, fmt::format("blackbody {} K", *T));
     } else {
-        if (kind.quantity == SpectralQuantity::complex_index) o.error_at("rgb", "an index of refraction has no RGB");
-        else result = from_rgb(b, o, kind);
+        if (kind.quantity == SpectralQuantity::complex_index)
+            o.error_at("rgb", "an index of refraction has no RGB");
+        else
+            result = from_rgb(b, o, kind);
     }
     if (auto const s = o.number("scale", at_least(0)); s && result) result = result->scaled(*s);
     if (auto const Y = o.number("luminance_weighted", at_least(0))) {
-        if (!kind.may_scale_luminance) o.error_at("luminance_weighted", "is for emissions only");
-        else if (result && luminance_of(*result) <= 0) o.error_at("luminance_weighted", "this spectrum has no luminance");
-        else if (result) result = luminance_weighted(*result, *Y, cie1931_2deg());
+        if (!kind.may_scale_luminance)
+            o.error_at("luminance_weighted", "is for emissions only");
+        else if (result && luminance_of(*result) <= 0)
+            o.error_at("luminance_weighted", "this spectrum has no luminance");
+        else if (result)
+            result = luminance_weighted(*result, *Y, cie1931_2deg());
     }
     if (auto const outside = o.choice("outside", {"hold", "zero", "extrapolate", "error"}); outside && result)
         result = result->with_outside(*outside == "hold"          ? Outside::hold
@@ -100,12 +107,21 @@ std::optional<SpectralFunction> from_object(SceneBuilder& b, JsonValue const& va
     return result;
 }
 
+bool has_key(JsonValue const& value, std::string const& key) {
+    JsonObject const* const object = value.as<JsonObject>();
+    return object && std::ranges::any_of(*object, [&](auto const& entry) { return entry.first == key; });
+}
+
 char const* outside_text(Outside outside) {
     switch (outside) {
-        case Outside::hold: return "its end value is held";
-        case Outside::zero: return "it is zero";
-        case Outside::extrapolate: return "it is extrapolated";
-        case Outside::error: break;
+        case Outside::hold:
+            return "its end value is held";
+        case Outside::zero:
+            return "it is zero";
+        case Outside::extrapolate:
+            return "it is extrapolated";
+        case Outside::error:
+            break;
     }
     return "an error";
 }
@@ -115,30 +131,36 @@ void check_spectrum(SceneBuilder& b, JsonValue const& at, std::string const& pat
                     SpectrumKind const& kind) {
     WavelengthRange const range = b.scene.wavelengths, table = s.defined_on();
     if (!table.contains(range)) {
-        std::string const gap = fmt::format("'{}' is given on {:g}..{:g} nm, the render range is {:g}..{:g} nm", s.name(),
-                                            table.min_nm, table.max_nm, range.min_nm, range.max_nm);
+        std::string const gap = fmt::format("'{}' is given on {:g}..{:g} nm, the render range is {:g}..{:g} nm",
+                                            s.name(), table.min_nm, table.max_nm, range.min_nm, range.max_nm);
         if (s.outside() == Outside::error) {
-            b.context.error(at, path, gap + "; narrow \"wavelengths_nm\", or say {\"data\": ..., \"outside\": \"hold\" or "
-                                            "\"extrapolate\"}");
+            b.context.error(at, path,
+                            gap +
+                                "; narrow \"wavelengths_nm\", or say {\"data\": ..., \"outside\": \"hold\" or "
+                                "\"extrapolate\"}");
             return;
         }
         b.context.remarks.push_back(path + ": " + gap + ": outside, " + outside_text(s.outside()));
     }
     double const least = s.smallest(range), most = s.largest(range);
     if (!(least >= kind.least && most <= kind.most))
-        b.context.error(at, path, fmt::format("values {:g} .. {:g} over the render range, allowed: {}", least, most,
-                                              between(kind.least, kind.most == 1 + reflectance_slack ? 1 : kind.most).text()));
+        b.context.error(at, path,
+                        fmt::format("values {:g} .. {:g} over the render range, allowed: {}", least, most,
+                                    between(kind.least, kind.most == 1 + reflectance_slack ? 1 : kind.most).text()));
 }
 
 std::optional<SpectralFunction> read_value(SceneBuilder& b, JsonValue const& value, std::string const& path,
                                            SpectrumKind const& kind) {
     std::optional<SpectralFunction> result;
-    if (double const* x = value.as<double>()) result = SpectralFunction::constant(*x);
-    else if (std::string const* s = value.as<std::string>()) result = from_name(b, value, path, *s, kind);
-    else if (value.as<JsonObject>()) result = from_object(b, value, path, kind);
+    if (double const* x = value.as<double>())
+        result = SpectralFunction::constant(*x);
+    else if (std::string const* s = value.as<std::string>())
+        result = from_name(b, value, path, *s, kind);
+    else if (value.as<JsonObject>())
+        result = from_object(b, value, path, kind);
     else
-        b.context.error(value, path, "found " + value.described() +
-                                         ", but a spectrum is a number, a name, a file or an object");
+        b.context.error(value, path,
+                        "found " + value.described() + ", but a spectrum is a number, a name, a file or an object");
     if (result) check_spectrum(b, value, path, *result, kind);
     return result;
 }
@@ -162,19 +184,23 @@ std::optional<ComplexIndex> read_complex_index(SceneBuilder& b, Fields& fields, 
     ComplexIndex index;
     if (double const* x = value->as<double>()) {
         index.n = SpectralFunction::constant(*x);
-    } else if (JsonObject const* object = value->as<JsonObject>();
-               object && std::ranges::any_of(*object, [](auto const& e) { return e.first == "n"; })) {
+    } else if (has_key(*value, "n")) {
         Fields o(b.context, *value, path);
         auto const n = read_spectrum(b, o, "n", index_kind);
         auto const k = o.find("k") ? read_spectrum(b, o, "k", index_kind) : SpectralFunction::constant(0);
         o.finish();
         if (!n || !k) return std::nullopt;
         return ComplexIndex{*n, *k};
+    } else if (has_key(*value, "pairs")) {
+        auto const n = from_object(b, *value, path, index_kind);
+        if (!n) return std::nullopt;
+        index.n = *n;
     } else {
         // A name or file holds both n and k; the object form adds "outside".
         std::optional<std::string> name;
         std::optional<std::string> outside;
-        if (std::string const* s = value->as<std::string>()) name = *s;
+        if (std::string const* s = value->as<std::string>())
+            name = *s;
         else {
             Fields o(b.context, *value, path);
             o.require("data");
