@@ -95,28 +95,27 @@ class RectangleLight final : public AreaLight {
   public:
     RectangleLight(Quad const& quad, EmitterStrength strength, bool flipped)
         : AreaLight(std::move(strength), quad.area(), flipped),
-          corner_(quad.corner[0]),
-          edge_x_(quad.corner[1] - quad.corner[0]),
-          edge_y_(quad.corner[3] - quad.corner[0]),
-          normal_(quad.normal()) {}
+          rectangle_(Rectangle::from_edges(quad.corner[0], quad.corner[1] - quad.corner[0],
+                                           quad.corner[3] - quad.corner[0])) {}
 
     std::optional<LightSample> sample(Vector const& from, Wavelengths const& wavelengths, Sample2 u) const override {
-        SphericalRectangle const seen(corner_, edge_x_, edge_y_, from);
+        SphericalRectangle const seen(rectangle_, from);
         if (seen.solid_angle() > smallest_solid_angle)
-            return towards(from, from + seen.sample(u), normal_, wavelengths, PerSteradian(1 / seen.solid_angle()));
-        Vector const point = corner_ + u.x * edge_x_ + u.y * edge_y_;
-        return towards(from, point, normal_, wavelengths,
-                       area_density(static_cast<float>(area_), from, point, normal_));
+            return towards(from, from + seen.sample(u), rectangle_.normal, wavelengths,
+                           PerSteradian(1 / seen.solid_angle()));
+        Vector const point =
+            rectangle_.corner + u.x * rectangle_.width * rectangle_.x + u.y * rectangle_.height * rectangle_.y;
+        return towards(from, point, rectangle_.normal, wavelengths,
+                       area_density(static_cast<float>(area_), from, point, rectangle_.normal));
     }
     PerSteradian density(Vector const& from, SurfacePoint const& on, std::uint32_t) const override {
-        SphericalRectangle const seen(corner_, edge_x_, edge_y_, from);
+        SphericalRectangle const seen(rectangle_, from);
         if (seen.solid_angle() > smallest_solid_angle) return PerSteradian(1 / seen.solid_angle());
-        return area_density(static_cast<float>(area_), from, on.position, normal_);
+        return area_density(static_cast<float>(area_), from, on.position, rectangle_.normal);
     }
 
   private:
-    Vector corner_, edge_x_, edge_y_;
-    Direction normal_;
+    Rectangle rectangle_;
 };
 
 // Triangles, chosen by area, each then by its solid angle.
@@ -163,8 +162,7 @@ class TrianglesLight final : public AreaLight {
     }
     static double area(Triangle const& t) { return 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm(); }
     static float solid_angle(Triangle const& t, Vector const& from) {
-        return triangle_solid_angle((t[0] - from).normalized(), (t[1] - from).normalized(),
-                                    (t[2] - from).normalized());
+        return triangle_solid_angle((t[0] - from).normalized(), (t[1] - from).normalized(), (t[2] - from).normalized());
     }
     static PerSteradian triangle_density(Triangle const& t, Vector const& from, Vector const& point,
                                          Direction const& n) {
