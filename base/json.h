@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// JSON that remembers where it stands: every value knows its line and column, so that a reader can say where and what is
-// wrong. `//` and `/* */` comments are allowed. Built on nlohmann::json's event parser.
+// JSON that remembers where it stands: every value knows its line and column, so that a reader can say where and what
+// is wrong. `//` and `/* */` comments are allowed. Built on nlohmann::json's event parser.
 #pragma once
 
 #include <filesystem>

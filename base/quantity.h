@@ -37,11 +37,7 @@ struct Quantity {
 
     constexpr Quantity() = default;
     constexpr explicit(D != dim::none) Quantity(float number) : value(number) {}
-    constexpr operator float() const
-        requires(D == dim::none)
-    {
-        return value;
-    }
+    constexpr operator float() const requires(D == dim::none) { return value; }
 
     friend constexpr Quantity operator+(Quantity a, Quantity b) { return Quantity(a.value + b.value); }
     friend constexpr Quantity operator-(Quantity a, Quantity b) { return Quantity(a.value - b.value); }
@@ -52,13 +48,11 @@ struct Quantity {
 };
 
 template <Dimension A, Dimension B>
-    requires(A != dim::none && B != dim::none)
-constexpr auto operator*(Quantity<A> a, Quantity<B> b) {
+requires(A != dim::none && B != dim::none) constexpr auto operator*(Quantity<A> a, Quantity<B> b) {
     return Quantity<A * B>(a.value * b.value);
 }
 template <Dimension A, Dimension B>
-    requires(B != dim::none)
-constexpr auto operator/(Quantity<A> a, Quantity<B> b) {
+requires(B != dim::none) constexpr auto operator/(Quantity<A> a, Quantity<B> b) {
     return Quantity<A / B>(a.value / b.value);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The random numbers of one camera path: dimension after dimension, each a function of (seed, pixel, sample, dimension).
-// Dimensions are handed out in pairs; each pair is an independently scrambled and shuffled (0,2)-sequence over the
-// samples of its pixel ("padding"), or, with SamplerKind::independent, plain hashes.
+// The random numbers of one camera path: dimension after dimension, each a function of (seed, pixel, sample,
+// dimension). Dimensions are handed out in pairs; each pair is an independently scrambled and shuffled (0,2)-sequence
+// over the samples of its pixel ("padding"), or, with SamplerKind::independent, plain hashes.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The first two dimensions of Sobol's sequence, a (0,2)-sequence in base 2, with hashed Owen scrambling.
 //   dimension 0:  reverse(i)              (van der Corput)
-//   dimension 1:  reverse(P i)            P = Pascal's triangle mod 2: C(k, j) is odd iff j is a submask of k, so P i is
+//   dimension 1:  reverse(P i)            P = Pascal's triangle mod 2: C(k, j) is odd iff j is a submask of k, so P i
+//   is
 //                                         a sum over supersets, five shifts and masks
 // Owen scrambling flips each bit by a hash of the bits above it; on reversed words that is a hash in which a bit only
 // depends on lower ones. [Sobol 1967] [Owen 1995] [Laine 2011] [Burley 2020]
@@ -28,7 +29,7 @@ constexpr std::uint32_t multiply_by_pascal(std::uint32_t x) {
 }
 
 // A permutation of 32-bit words in which each bit depends only on itself, lower bits and the seed: Owen scrambling of
-// the reversed word. [Laine 2011; multipliers by Vegdahl 2021]
+// the reversed word. [Laine 2011] [Vegdahl 2021]
 constexpr std::uint32_t scramble_reversed(std::uint32_t x, std::uint32_t seed) {
     x ^= x * 0x3d20adeau;
     x += seed;

@@ -46,7 +46,8 @@ std::vector<std::string> displays_of(ocio::Config const& config) {
 
 std::vector<std::string> views_of(ocio::Config const& config, std::string const& display) {
     std::vector<std::string> names;
-    for (int i = 0; i < config.getNumViews(display.c_str()); ++i) names.emplace_back(config.getView(display.c_str(), i));
+    for (int i = 0; i < config.getNumViews(display.c_str()); ++i)
+        names.emplace_back(config.getView(display.c_str(), i));
     return names;
 }
 
@@ -76,9 +77,11 @@ DisplayPipeline::DisplayPipeline(std::filesystem::path const& config_path, std::
     char const* source = nullptr;
     for (char const* name : {"ACEScg", "ACES - ACEScg", "lin_ap1", "lin_ap1_scene"})
         if (!source && config->getColorSpace(name)) source = name;
-    if (!source) fail(path, "", "has no colour space ACEScg (looked for: ACEScg, ACES - ACEScg, lin_ap1, lin_ap1_scene)");
+    if (!source)
+        fail(path, "", "has no colour space ACEScg (looked for: ACEScg, ACES - ACEScg, lin_ap1, lin_ap1_scene)");
     try {
-        auto const processor = config->getProcessor(source, display_.c_str(), view_.c_str(), ocio::TRANSFORM_DIR_FORWARD);
+        auto const processor =
+            config->getProcessor(source, display_.c_str(), view_.c_str(), ocio::TRANSFORM_DIR_FORWARD);
         processor_->cpu = processor->getDefaultCPUProcessor();
     } catch (ocio::Exception const& e) {
         fail(path, "view", e.what());

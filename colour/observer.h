@@ -16,7 +16,9 @@ struct Observer {
     SpectralFunction xbar, ybar, zbar;  // zero outside their table
     double ybar_integral;               // [nm], over the table's domain
 
-    Xyz at(double wavelength_nm) const { return {xbar.at(wavelength_nm), ybar.at(wavelength_nm), zbar.at(wavelength_nm)}; }
+    Xyz at(double wavelength_nm) const {
+        return {xbar.at(wavelength_nm), ybar.at(wavelength_nm), zbar.at(wavelength_nm)};
+    }
     // XYZ of a spectral radiance, by exact integration of the two piecewise linear functions.
     Xyz integrate(SpectralFunction const& radiance) const;
 };

@@ -12,9 +12,9 @@
 namespace iride {
 
 struct RgbSpace {
-    std::string_view name;          // as on the command line: "ACEScg"
+    std::string_view name;  // as on the command line: "ACEScg"
     Chromaticity red, green, blue, white;
-    std::string_view interop_id;    // ASWF colour interop id, e.g. "lin_ap1_scene"
+    std::string_view interop_id;  // ASWF colour interop id, e.g. "lin_ap1_scene"
 
     // XYZ of RGB; the white (1,1,1) has Y = 1. [SMPTE RP 177:1993]
     MatrixDouble to_xyz_matrix() const;
@@ -37,8 +37,8 @@ MatrixDouble bradford_adaptation(Chromaticity const& from, Chromaticity const& t
 // What an output named on the command line means: XYZ itself, or an RGB space after adaptation from the scene's white.
 struct OutputSpace {
     std::string name;
-    MatrixDouble from_xyz;   // identity for XYZ
-    RgbSpace const* rgb;     // null for XYZ
+    MatrixDouble from_xyz;  // identity for XYZ
+    RgbSpace const* rgb;    // null for XYZ
 };
 // "XYZ", "ACEScg", "ACES2065-1", "linear-sRGB", "Rec709" (the same, linear), "Rec2020", "DisplayP3", "AdobeRGB", all
 // scene-linear. Throws InputError with the allowed names.

@@ -86,8 +86,7 @@ class Path final : public Integrator {
                                       RayStatistics& statistics) {
         auto const choice = scene.lights.choose(sampler.next());
         if (!choice) return {};
-        auto const light =
-            scene.lights.light(choice->index).sample(hit.point.position, wavelengths, sampler.next2());
+        auto const light = scene.lights.light(choice->index).sample(hit.point.position, wavelengths, sampler.next2());
         if (!light) return {};
         Direction const wi = here.frame.to_local(light->wi);
         BsdfEvaluation const f = here.bsdf.evaluate(here.wo, wi);
@@ -96,8 +95,10 @@ class Path final : public Integrator {
         // In units of a steradian: a density for lights of extent, the Dirac's own measure for the others.
         float const cosine = std::abs(wi.z());
         Lanes competitors;
-        if (light->density) competitors = Lanes(f.density.lane + choice->probability * light->density->value);
-        else competitors = Lanes(choice->probability);
+        if (light->density)
+            competitors = Lanes(f.density.lane + choice->probability * light->density->value);
+        else
+            competitors = Lanes(choice->probability);
         float const divisor = Dispersive ? float(mean(state.reach * competitors)) : competitors[0];
         Lanes const scattered(f.value.lane * (cosine / divisor));
         return state.weight * scattered * light->radiance;

@@ -44,15 +44,17 @@ RenderPlan make_plan(Scene const& scene) {
     };
 
     std::string const dispersive = names_of(scene, [](NamedMaterial const& m) { return m.material->is_dispersive(); });
-    plan.dispersion = decide("dispersion", !dispersive.empty(),
-                             dispersive.empty() ? "no index of a transparent body depends on wavelength: all lanes share "
-                                                  "every path, their reach is not carried"
-                                                : "wavelengths part company in: " + dispersive);
+    plan.dispersion =
+        decide("dispersion", !dispersive.empty(),
+               dispersive.empty() ? "no index of a transparent body depends on wavelength: all lanes share "
+                                    "every path, their reach is not carried"
+                                  : "wavelengths part company in: " + dispersive);
 
-    plan.environment = decide("environment", !scene.lights.environments().empty(),
-                              scene.lights.environments().empty() ? "no light from infinity: a ray that leaves the scene "
-                                                                    "ends its path"
-                                                                  : "rays that leave the scene bring light");
+    plan.environment =
+        decide("environment", !scene.lights.environments().empty(),
+               scene.lights.environments().empty() ? "no light from infinity: a ray that leaves the scene "
+                                                     "ends its path"
+                                                   : "rays that leave the scene bring light");
 
     std::string const finite = names_of(scene, [](NamedMaterial const& m) { return m.material->has_density(); });
     bool const lamps = scene.lights.choose(0).has_value();
@@ -76,10 +78,9 @@ RenderPlan make_plan(Scene const& scene) {
                        scene.film.band_count > 0 ? "observer or a band" : "observer"));
 
     plan.bands = decide("spectral bands", scene.film.band_count > 0,
-                        scene.film.band_count > 0
-                            ? fmt::format("{} of {:g} nm", scene.film.band_count,
-                                          scene.film.band_range.width() / scene.film.band_count)
-                            : "none asked for: wavelengths are drawn for the observer alone");
+                        scene.film.band_count > 0 ? fmt::format("{} of {:g} nm", scene.film.band_count,
+                                                                scene.film.band_range.width() / scene.film.band_count)
+                                                  : "none asked for: wavelengths are drawn for the observer alone");
 
     plan.max_bounces = scene.render.max_bounces;
     decide("bounce limit", plan.max_bounces.has_value(),

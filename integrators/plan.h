@@ -11,10 +11,10 @@
 namespace iride {
 
 struct RenderPlan {
-    bool dispersion = false;             // lanes part company somewhere: carry their reach
-    bool light_sampling = true;          // some light can be sampled, and some surface can use it
-    bool environment = false;            // paths that leave the scene may bring radiance
-    WavelengthRange wavelengths;         // where lamps and (observer or bands) overlap: what is sampled
+    bool dispersion = false;      // lanes part company somewhere: carry their reach
+    bool light_sampling = true;   // some light can be sampled, and some surface can use it
+    bool environment = false;     // paths that leave the scene may bring radiance
+    WavelengthRange wavelengths;  // where lamps and (observer or bands) overlap: what is sampled
     bool bands = false;
     std::optional<int> max_bounces;
 

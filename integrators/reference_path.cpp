@@ -61,6 +61,8 @@ class ReferencePath final : public Integrator {
 
 }  // namespace
 
-std::unique_ptr<Integrator> make_reference_path(RenderPlan const& plan) { return std::make_unique<ReferencePath>(plan); }
+std::unique_ptr<Integrator> make_reference_path(RenderPlan const& plan) {
+    return std::make_unique<ReferencePath>(plan);
+}
 
 }  // namespace iride

@@ -14,8 +14,8 @@ namespace iride {
 
 namespace {
 
-constexpr int tile_size = 16;            // pixels: small enough to balance, large enough to keep the caches warm
-constexpr std::uint32_t timed_path = 64; // every 64th path of a pixel tells the time spent in Embree
+constexpr int tile_size = 16;             // pixels: small enough to balance, large enough to keep the caches warm
+constexpr std::uint32_t timed_path = 64;  // every 64th path of a pixel tells the time spent in Embree
 
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
@@ -69,19 +69,26 @@ class Loop {
         Ray const ray = camera_.ray(static_cast<float>(x) + 0.5f + place.x, static_cast<float>(y) + 0.5f + place.y,
                                     sampler.next2());
         PathResult const path = integrator_.radiance(scene_, ray, wavelengths, sampler, statistics.rays);
-        if (!path.complete) film_.reject(x, y, Rejection::path_too_long);
-        else if (!is_finite(path.radiance)) film_.reject(x, y, Rejection::not_finite);
-        else if (is_negative(path.radiance)) film_.reject(x, y, Rejection::negative);
-        else film_.add(x, y, wavelengths, path.radiance);
+        if (!path.complete)
+            film_.reject(x, y, Rejection::path_too_long);
+        else if (!is_finite(path.radiance))
+            film_.reject(x, y, Rejection::not_finite);
+        else if (is_negative(path.radiance))
+            film_.reject(x, y, Rejection::negative);
+        else
+            film_.add(x, y, wavelengths, path.radiance);
         if (statistics.rays.timed) statistics.timed_ticks += processor_ticks() - start;
     }
 
     Sample2 filtered(Sample2 u) const {
         float const r = scene_.film.filter_radius;
         switch (scene_.film.filter) {
-            case FilterKind::triangle: return {sample_triangle(u.x, r), sample_triangle(u.y, r)};
-            case FilterKind::gaussian: return sample_gaussian(u, r);
-            case FilterKind::box: break;
+            case FilterKind::triangle:
+                return {sample_triangle(u.x, r), sample_triangle(u.y, r)};
+            case FilterKind::gaussian:
+                return sample_gaussian(u, r);
+            case FilterKind::box:
+                break;
         }
         return {sample_box(u.x, r), sample_box(u.y, r)};
     }

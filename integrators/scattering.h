@@ -31,7 +31,9 @@ struct Interaction {
 
   private:
     Interaction(Material const& material, Hit const& hit, Direction const& to_viewer, Wavelengths const& wavelengths)
-        : bsdf(material.at(hit.point, wavelengths)), frame(hit.point.frame), geometric_normal(hit.point.geometric_normal) {
+        : bsdf(material.at(hit.point, wavelengths)),
+          frame(hit.point.frame),
+          geometric_normal(hit.point.geometric_normal) {
         if (material.is_two_sided() && to_viewer.dot(geometric_normal) < 0) {
             geometric_normal = -geometric_normal;
             frame = Frame::around(-frame.normal);

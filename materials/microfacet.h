@@ -25,10 +25,12 @@ struct Ggx {
         return slope2 / (2 * (std::sqrt(1 + slope2) + 1));  // (sqrt(1 + s) - 1) / 2 without cancellation
     }
     float masking(Direction const& w) const { return 1 / (1 + lambda(w)); }
-    float masking_shadowing(Direction const& wo, Direction const& wi) const { return 1 / (1 + lambda(wo) + lambda(wi)); }
+    float masking_shadowing(Direction const& wo, Direction const& wi) const {
+        return 1 / (1 + lambda(wo) + lambda(wi));
+    }
 
-    // A normal visible from w (w.z > 0): stretch to the hemisphere, where the visible half vectors fill a spherical cap,
-    // sample the cap uniformly, and stretch back. [Dupuy 2023]
+    // A normal visible from w (w.z > 0): stretch to the hemisphere, where the visible half vectors fill a spherical
+    // cap, sample the cap uniformly, and stretch back. [Dupuy 2023]
     Direction visible_normal(Direction const& w, Sample2 u) const {
         Direction const stretched = Vector(alpha * w.x(), alpha * w.y(), w.z()).normalized();
         float const phi = 2 * pi * u.x;

@@ -36,8 +36,8 @@ class Stopwatch {
 
 // Embree reads vertices in 16-byte loads: one float of padding behind the last.
 void copy_vertices(RTCGeometry geometry, Vector const* vertices, std::size_t count) {
-    auto* const buffer = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
-                                                                     RTC_FORMAT_FLOAT3, 3 * sizeof(float), count));
+    auto* const buffer = static_cast<float*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), count));
     for (std::size_t i = 0; i < count; ++i) Eigen::Map<Vector>(buffer + 3 * i) = vertices[i];
 }
 
@@ -92,8 +92,10 @@ void frustum_intersect(RTCIntersectFunctionNArguments const* a) {
     if (!a->valid[0]) return;
     auto& rh = *reinterpret_cast<RTCRayHit*>(a->rayhit);
     auto const& f = std::get<Frustum>(static_cast<Shape const*>(a->geometryUserPtr)->geometry);
-    Ray const ray{{rh.ray.org_x, rh.ray.org_y, rh.ray.org_z}, {rh.ray.dir_x, rh.ray.dir_y, rh.ray.dir_z},
-                  rh.ray.tnear, rh.ray.tfar};
+    Ray const ray{{rh.ray.org_x, rh.ray.org_y, rh.ray.org_z},
+                  {rh.ray.dir_x, rh.ray.dir_y, rh.ray.dir_z},
+                  rh.ray.tnear,
+                  rh.ray.tfar};
     std::optional<float> const t = intersect(f, ray);
     if (!t) return;
     rh.ray.tfar = *t;
@@ -106,8 +108,7 @@ void frustum_occluded(RTCOccludedFunctionNArguments const* a) {
     if (!a->valid[0]) return;
     auto& r = *reinterpret_cast<RTCRay*>(a->ray);
     auto const& f = std::get<Frustum>(static_cast<Shape const*>(a->geometryUserPtr)->geometry);
-    if (intersect(f, {{r.org_x, r.org_y, r.org_z}, {r.dir_x, r.dir_y, r.dir_z}, r.tnear, r.tfar}))
-        r.tfar = -infinity;
+    if (intersect(f, {{r.org_x, r.org_y, r.org_z}, {r.dir_x, r.dir_y, r.dir_z}, r.tnear, r.tfar})) r.tfar = -infinity;
 }
 
 RTCGeometry make_geometry(RTCDevice device, Frustum const&) {
@@ -241,8 +242,18 @@ Accelerator::Accelerator(Accelerator&&) noexcept = default;
 std::optional<Hit> Accelerator::closest(Ray const& ray, RayStatistics& statistics) const {
     Implementation const& self = *implementation_;
     RTCRayHit rh;
-    rh.ray = {ray.origin.x(), ray.origin.y(), ray.origin.z(), ray.t_min, ray.direction.x(), ray.direction.y(),
-              ray.direction.z(), 0, ray.t_max, ~0u, 0, 0};
+    rh.ray = {ray.origin.x(),
+              ray.origin.y(),
+              ray.origin.z(),
+              ray.t_min,
+              ray.direction.x(),
+              ray.direction.y(),
+              ray.direction.z(),
+              0,
+              ray.t_max,
+              ~0u,
+              0,
+              0};
     rh.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rh.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     RTCIntersectContext context;
@@ -275,8 +286,18 @@ std::optional<Hit> Accelerator::closest(Ray const& ray, RayStatistics& statistic
 }
 
 bool Accelerator::occluded(Ray const& ray, RayStatistics& statistics) const {
-    RTCRay r{ray.origin.x(), ray.origin.y(), ray.origin.z(), ray.t_min, ray.direction.x(), ray.direction.y(),
-             ray.direction.z(), 0, ray.t_max, ~0u, 0, 0};
+    RTCRay r{ray.origin.x(),
+             ray.origin.y(),
+             ray.origin.z(),
+             ray.t_min,
+             ray.direction.x(),
+             ray.direction.y(),
+             ray.direction.z(),
+             0,
+             ray.t_max,
+             ~0u,
+             0,
+             0};
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     {

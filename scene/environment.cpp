@@ -27,8 +27,8 @@ class ConstantEnvironment final : public Light {
     double luminance_;
 };
 
-// Direction <-> picture: x = 1/2 + azimuth / 2 pi with azimuth 0 at -z growing towards +x, y = polar angle / pi from +y.
-// d omega = 2 pi^2 sin(polar) dx dy.
+// Direction <-> picture: x = 1/2 + azimuth / 2 pi with azimuth 0 at -z growing towards +x, y = polar angle / pi from
+// +y. d omega = 2 pi^2 sin(polar) dx dy.
 class PictureEnvironment final : public Light {
   public:
     explicit PictureEnvironment(EnvironmentPicture picture) : picture_(std::move(picture)) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reading the keys of a JSON object: each is asked for by name and type, errors are collected with their place, and what
-// was never asked for is reported at the end.
+// Reading the keys of a JSON object: each is asked for by name and type, errors are collected with their place, and
+// what was never asked for is reported at the end.
 #pragma once
 
 #include <filesystem>

@@ -27,7 +27,8 @@ EnvironmentPicture read_picture(std::filesystem::path const& path, double scale,
     if (spec.nchannels < 3) throw fail(fmt::format("found {} channels, but R, G, B are wanted", spec.nchannels));
     constexpr int largest_side = 32768;
     if (spec.width < 2 || spec.height < 1 || spec.width > largest_side || spec.height > largest_side)
-        throw fail(fmt::format("found {} x {} pixels, allowed: 2 x 1 .. {} squared", spec.width, spec.height, largest_side));
+        throw fail(
+            fmt::format("found {} x {} pixels, allowed: 2 x 1 .. {} squared", spec.width, spec.height, largest_side));
     EnvironmentPicture picture{spec.width, spec.height, {}, {}, 0};
     picture.texel.resize(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height));
     if (!input->read_image(0, 0, 0, 3, OIIO::TypeDesc::FLOAT, picture.texel.data()))
@@ -132,7 +133,8 @@ int add_light(SceneBuilder& b, std::unique_ptr<Light> light, std::string const& 
 
 void read_lights(SceneBuilder& b, JsonValue const& value, std::string const& path) {
     JsonArray const* const array = value.as<JsonArray>();
-    if (!array) return b.context.error(value, path, "found " + value.described() + ", but an array of lights is wanted");
+    if (!array)
+        return b.context.error(value, path, "found " + value.described() + ", but an array of lights is wanted");
     for (std::size_t i = 0; i < array->size(); ++i) {
         Fields f(b.context, (*array)[i], fmt::format("{}[{}]", path, i));
         LightEntry const* const entry = find_entry(f, light_entries());

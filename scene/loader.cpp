@@ -24,8 +24,10 @@ void read_camera(SceneBuilder& b, Fields& top) {
     c.target = f.required_vector("target") * b.length_unit_m;
     c.up = f.vector("up").value_or(VectorDouble(0, 1, 0));
     VectorDouble const forward = c.target - c.eye;
-    if (forward.norm() == 0) f.error("'eye' and 'target' are the same point");
-    else if (forward.normalized().cross(c.up).norm() < 1e-6) f.error_at("up", "'up' is parallel to the line of sight");
+    if (forward.norm() == 0)
+        f.error("'eye' and 'target' are the same point");
+    else if (forward.normalized().cross(c.up).norm() < 1e-6)
+        f.error_at("up", "'up' is parallel to the line of sight");
     if (orthographic) {
         c.window = f.required_number("window", positive()) * b.length_unit_m;
     } else {
@@ -45,7 +47,8 @@ Chromaticity read_white(SceneBuilder& b, Fields& f) {
         auto const xy = f.numbers("white", 2);
         if (xy && !((*xy)[0] > 0 && (*xy)[1] > 0 && (*xy)[0] + (*xy)[1] < 1))
             f.error_at("white", "a chromaticity has x > 0, y > 0, x + y < 1");
-        else if (xy) white = {(*xy)[0], (*xy)[1]};
+        else if (xy)
+            white = {(*xy)[0], (*xy)[1]};
     } else if (auto const name = f.text("white")) {
         b.context.guarded(*value, f.path("white"), [&] { white = named_white(*name); });
     }
@@ -70,9 +73,11 @@ void read_film(SceneBuilder& b, Fields& top) {
         constexpr double largest = 65536;
         bool good = true;
         for (double s : *size) good = good && s >= 1 && s <= largest && s == std::floor(s);
-        if (good) film.width = static_cast<int>((*size)[0]), film.height = static_cast<int>((*size)[1]);
+        if (good)
+            film.width = static_cast<int>((*size)[0]), film.height = static_cast<int>((*size)[1]);
         else
-            f.error_at("size", fmt::format("found {} x {}, allowed: whole numbers 1 .. {}", (*size)[0], (*size)[1], largest));
+            f.error_at("size",
+                       fmt::format("found {} x {}, allowed: whole numbers 1 .. {}", (*size)[0], (*size)[1], largest));
     }
     auto const filter = f.choice("filter", {"box", "triangle", "gaussian"}).value_or("box");
     film.filter = filter == "triangle"   ? FilterKind::triangle
@@ -90,8 +95,8 @@ void read_film(SceneBuilder& b, Fields& top) {
         film.band_count = g.integer("count", 1, 1000).value_or(1);
         film.band_range = read_range(g, "range_nm").value_or(b.scene.wavelengths);
         if (!b.scene.wavelengths.contains(film.band_range))
-            g.error_at("range_nm", fmt::format("bands reach beyond wavelengths_nm, {:g}..{:g}", b.scene.wavelengths.min_nm,
-                                               b.scene.wavelengths.max_nm));
+            g.error_at("range_nm", fmt::format("bands reach beyond wavelengths_nm, {:g}..{:g}",
+                                               b.scene.wavelengths.min_nm, b.scene.wavelengths.max_nm));
         g.finish();
     }
     f.finish();
@@ -114,7 +119,8 @@ void read_materials(SceneBuilder& b, Fields& top) {
     JsonValue const* const value = top.find("materials");
     if (!value) return;
     JsonObject const* const object = value->as<JsonObject>();
-    if (!object) return top.error_at("materials", "found " + value->described() + ", but an object of materials is wanted");
+    if (!object)
+        return top.error_at("materials", "found " + value->described() + ", but an object of materials is wanted");
     for (auto const& [name, material] : *object)
         b.material_by_name[name] = read_material(b, material, "materials." + name, name);
 }
@@ -123,7 +129,8 @@ void read_objects(SceneBuilder& b, Fields& top) {
     std::map<std::string, int> by_name;
     if (JsonValue const* const value = top.find("objects")) {
         JsonObject const* const object = value->as<JsonObject>();
-        if (!object) return top.error_at("objects", "found " + value->described() + ", but an object of shape lists is wanted");
+        if (!object)
+            return top.error_at("objects", "found " + value->described() + ", but an object of shape lists is wanted");
         for (auto const& [name, shapes] : *object) {
             by_name[name] = static_cast<int>(b.scene.objects.size());
             read_shapes(b, shapes, "objects." + name, true, b.scene.objects.emplace_back().shapes);
@@ -216,8 +223,10 @@ std::filesystem::path find_scene(std::string const& file_or_name) {
     }
     std::vector<std::string> names;
     for (ShippedScene const& s : shipped_scenes()) names.push_back(s.name);
-    throw InputError(Diagnostic{{}, "", fmt::format("'{}' is neither a file nor a shipped scene{}", file_or_name,
-                                                    suggestion(file_or_name, names))});
+    throw InputError(Diagnostic{
+        {},
+        "",
+        fmt::format("'{}' is neither a file nor a shipped scene{}", file_or_name, suggestion(file_or_name, names))});
 }
 
 }  // namespace iride

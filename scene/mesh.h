@@ -12,16 +12,17 @@
 namespace iride {
 
 struct Mesh {
-    std::vector<Vector> position;                         // [vertex], in the file's unit
-    std::vector<Vector> normal;                           // [vertex] unit, or empty
-    std::vector<Vector2> uv;                              // [vertex], or empty
-    std::vector<std::array<std::uint32_t, 3>> triangle;   // [triangle] vertex numbers, counter-clockwise seen from the front
+    std::vector<Vector> position;  // [vertex], in the file's unit
+    std::vector<Vector> normal;    // [vertex] unit, or empty
+    std::vector<Vector2> uv;       // [vertex], or empty
+    std::vector<std::array<std::uint32_t, 3>>
+        triangle;  // [triangle] vertex numbers, counter-clockwise seen from the front
 };
 
-// Read .ply (ascii or binary, either byte order) or .obj; polygons are split into fans, OBJ's separate normal and texture
-// indices are joined into vertices. Throws InputError (file, line or byte, what was found) for: a missing, empty or
-// truncated file, an unknown extension, NaN or infinite coordinates, indices out of range, no triangle at all, more
-// elements announced than the file can hold.
+// Read .ply (ascii or binary, either byte order) or .obj; polygons are split into fans, OBJ's separate normal and
+// texture indices are joined into vertices. Throws InputError (file, line or byte, what was found) for: a missing,
+// empty or truncated file, an unknown extension, NaN or infinite coordinates, indices out of range, no triangle at all,
+// more elements announced than the file can hold.
 Mesh read_mesh(std::filesystem::path const& path);
 
 // The same checks on a mesh that came from elsewhere: finite positions, indices in range, at least one triangle.

@@ -24,9 +24,9 @@ struct SceneBuilder {
 // ---- spectra (spectrum_reader.cpp)
 struct SpectrumKind {
     SpectralQuantity quantity;
-    Outside outside;          // beyond a table, unless the file says otherwise
+    Outside outside;  // beyond a table, unless the file says otherwise
     bool may_scale_luminance;
-    double least, most;       // allowed values over the render range
+    double least, most;  // allowed values over the render range
 };
 extern SpectrumKind const reflectance_kind, emission_kind, index_kind;
 

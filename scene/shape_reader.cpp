@@ -59,10 +59,11 @@ void read_box(SceneBuilder& b, Fields& f, Geometries& out) {
     if (!((*high - *low).minCoeff() > 0)) return f.error("'max' must be above 'min' in every coordinate");
     // Corner i has bit k set where it takes max in coordinate k.
     auto const corner = [&](unsigned i) {
-        return metres(b, VectorDouble(i & 1 ? high->x() : low->x(), i & 2 ? high->y() : low->y(),
-                                      i & 4 ? high->z() : low->z()));
+        return metres(
+            b, VectorDouble(i & 1 ? high->x() : low->x(), i & 2 ? high->y() : low->y(), i & 4 ? high->z() : low->z()));
     };
-    constexpr unsigned faces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+    constexpr unsigned faces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                                      {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
     for (auto const& face : faces)
         out.push_back(Quad{{corner(face[0]), corner(face[1]), corner(face[2]), corner(face[3])}});
 }
@@ -91,9 +92,9 @@ void read_cone(SceneBuilder& b, Fields& f, Geometries& out) {
 }
 
 std::optional<Mesh> inline_mesh(SceneBuilder& b, Fields& f) {
-    JsonArray const *const vertices = f.require("vertices")->as<JsonArray>();
+    JsonArray const* const vertices = f.require("vertices")->as<JsonArray>();
     JsonValue const* const triangle_value = f.require("triangles");
-    JsonArray const *const triangles = triangle_value ? triangle_value->as<JsonArray>() : nullptr;
+    JsonArray const* const triangles = triangle_value ? triangle_value->as<JsonArray>() : nullptr;
     if (!vertices || !triangles) {
         f.error("'vertices' and 'triangles' are arrays of triples");
         return std::nullopt;
@@ -232,7 +233,8 @@ std::span<ShapeEntry const> shape_entries() { return table; }
 void read_shapes(SceneBuilder& b, JsonValue const& value, std::string const& path, bool in_object,
                  std::vector<Shape>& shapes) {
     JsonArray const* const array = value.as<JsonArray>();
-    if (!array) return b.context.error(value, path, "found " + value.described() + ", but an array of shapes is wanted");
+    if (!array)
+        return b.context.error(value, path, "found " + value.described() + ", but an array of shapes is wanted");
     for (std::size_t i = 0; i < array->size(); ++i)
         read_shape(b, (*array)[i], fmt::format("{}[{}]", path, i), in_object, shapes);
 }

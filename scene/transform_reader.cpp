@@ -25,11 +25,15 @@ Transform read_step(SceneBuilder& b, JsonValue const& value, std::string const& 
     } else if (step.find("rotate")) {
         auto const axis = step.vector("rotate");
         double const angle = step.required_number("angle_deg");
-        if (axis && axis->norm() == 0) step.error_at("rotate", "the axis has length 0");
-        else if (axis) t = Eigen::AngleAxisd(radians(angle), axis->normalized());
+        if (axis && axis->norm() == 0)
+            step.error_at("rotate", "the axis has length 0");
+        else if (axis)
+            t = Eigen::AngleAxisd(radians(angle), axis->normalized());
     } else if (JsonValue const* const scale = step.find("scale")) {
-        if (scale->as<double>()) t = Eigen::Scaling(step.required_number("scale"));
-        else if (auto const v = step.vector("scale")) t = Eigen::Scaling(*v);
+        if (scale->as<double>())
+            t = Eigen::Scaling(step.required_number("scale"));
+        else if (auto const v = step.vector("scale"))
+            t = Eigen::Scaling(*v);
     } else if (step.find("matrix")) {
         if (auto const n = step.numbers("matrix", 16)) {
             Eigen::Matrix4d const m = Eigen::Map<Eigen::Matrix<double, 4, 4, Eigen::RowMajor> const>(n->data());
@@ -109,8 +113,9 @@ void apply_transform(SceneBuilder&, Fields& fields, Transform const& t, ShapeGeo
     MatrixDouble const gram = t.linear().transpose() * t.linear() / square(scale);
     bool const similarity = (gram - MatrixDouble::Identity()).norm() < 1e-6;
     if (!std::visit(Apply{t, similarity, scale}, geometry))
-        fields.error_at("transform", "this shape takes moves, turns and even scaling only; put it into an object and "
-                                     "transform its instance");
+        fields.error_at("transform",
+                        "this shape takes moves, turns and even scaling only; put it into an object and "
+                        "transform its instance");
 }
 
 }  // namespace iride

@@ -21,11 +21,11 @@ enum class SpectralQuantity { power, radiance, reflectance, complex_index, match
 // A spectrum file as read: its columns share one wavelength column; a dispersion formula has no columns.
 struct SpectrumFile {
     std::filesystem::path path;
-    std::string quantity, unit, source;                // header lines; empty if the format has none
-    std::vector<double> wavelength_nm;                 // strictly increasing
-    std::map<std::string, std::vector<double>> column; // e.g. "n", "k", "power", "white", "x", "y", "z"
-    std::vector<std::string> column_order;             // as in the file
-    std::vector<DispersionShape> formula;              // zero or one
+    std::string quantity, unit, source;                 // header lines; empty if the format has none
+    std::vector<double> wavelength_nm;                  // strictly increasing
+    std::map<std::string, std::vector<double>> column;  // e.g. "n", "k", "power", "white", "x", "y", "z"
+    std::vector<std::string> column_order;              // as in the file
+    std::vector<DispersionShape> formula;               // zero or one
 };
 
 // Read a spectrum file: our CSV (`# key: value` header), any comma separated file with a header row, two-column .spd or

@@ -48,15 +48,11 @@ Sampled<A / B> operator/(Sampled<A> a, Sampled<B> b) {
     return Sampled<A / B>(a.lane / b.lane);
 }
 template <Dimension A, Dimension B>
-    requires(B != dim::none)
-Sampled<A * B> operator*(Sampled<A> a, Quantity<B> b) {
-    return Sampled<A * B>(a.lane * b.value);
-}
+requires(B != dim::none) Sampled<A * B>
+operator*(Sampled<A> a, Quantity<B> b) { return Sampled<A * B>(a.lane * b.value); }
 template <Dimension A, Dimension B>
-    requires(B != dim::none)
-Sampled<A / B> operator/(Sampled<A> a, Quantity<B> b) {
-    return Sampled<A / B>(a.lane / b.value);
-}
+requires(B != dim::none) Sampled<A / B>
+operator/(Sampled<A> a, Quantity<B> b) { return Sampled<A / B>(a.lane / b.value); }
 
 using Lanes = Sampled<dim::none>;
 using Throughput = Sampled<dim::none>;

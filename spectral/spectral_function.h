@@ -69,8 +69,8 @@ class SpectralFunction {
     double largest(WavelengthRange const& range) const;
     double smallest(WavelengthRange const& range) const;
 
-    // Integral over `range` of this times `weight` [unit nm]: two-point Gauss rule between every integer nm and every knot
-    // of either, so exact for the product of two piecewise linear functions.
+    // Integral over `range` of this times `weight` [unit nm]: two-point Gauss rule between every integer nm and every
+    // knot of either, so exact for the product of two piecewise linear functions.
     double integral(WavelengthRange const& range, SpectralFunction const& weight = constant(1)) const;
 
     SpectralFunction scaled(double factor) const;

@@ -56,12 +56,15 @@ Wavelengths WavelengthSampler::sample(float u) const {
 }
 
 SpectralFunction visible_importance() {
-    // VISIBLE
+    // Two bumps 1 / cosh^2, chosen by search so that both eight lanes and a lone one (after a dispersive refraction)
+    // vary little. Standard deviation of (X, Y, Z) of white D65 per path, quadrature over the rotation:
+    //   8 lanes (.0057, .0019, .0118), 1 lane (.80, .83, 1.64).  A single bump 1 / cosh^2((nm - 538) / 138.9) has
+    //   8 lanes (.0193, .0055, .0689), 1 lane (.85, .93, 2.13).
     TabulatedShape table;
     for (double nm = visible_range.min_nm; nm <= visible_range.max_nm; ++nm) {
         auto const bump = [&](double centre, double scale) { return std::pow(std::cosh((nm - centre) / scale), -2); };
         table.nm.push_back(nm);
-        table.value.push_back(bump(538, 138.889));
+        table.value.push_back(0.7 * bump(440, 32) + bump(550, 90));
     }
     return SpectralFunction(std::move(table), Outside::hold, "visible importance");
 }

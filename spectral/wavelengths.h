@@ -46,7 +46,7 @@ class WavelengthSampler {
     std::vector<float> knot_nm_;  // [segment_count + 1]
 };
 
-// The default importance for XYZ: the mean of the three colour-matching functions (each with integral 1), widened.
+// The default importance for XYZ: where the observer sees, and smooth, so that the lanes of a packet average well.
 SpectralFunction visible_importance();
 
 }  // namespace iride

@@ -39,12 +39,14 @@ std::string content(std::filesystem::path const& path) {
 TEST_CASE("render writes an EXR with its attributes, a preview and a report", "[app]") {
     test::TemporaryFolder const folder;
     std::string const base = (folder.path() / "a").string();
-    Result const r = run("render metals --size 32x18 --spp 4 -o " + base + ".exr --preview " + base + ".png --report " + base + ".json");
+    Result const r = run("render metals --size 32x18 --spp 4 -o " + base + ".exr --preview " + base + ".png --report " +
+                         base + ".json");
     INFO(r.text);
     REQUIRE(r.code == 0);
     CHECK_THAT(r.text, Contains("camera paths/s") && Contains("% of the time in Embree"));
     std::string const exr = content(base + ".exr");
-    for (char const* attribute : {"chromaticities", "whiteLuminance", "colorInteropID", "lin_ap1_scene", "iride:sceneHash", "iride:spp", "iride:seed"})
+    for (char const* attribute : {"chromaticities", "whiteLuminance", "colorInteropID", "lin_ap1_scene",
+                                  "iride:sceneHash", "iride:spp", "iride:seed"})
         CHECK(exr.find(attribute) != std::string::npos);
     CHECK(content(base + ".png").substr(1, 3) == "PNG");
     auto const report = nlohmann::json::parse(content(base + ".json"));
@@ -61,7 +63,8 @@ TEST_CASE("every output space holds the same XYZ", "[app]") {
     REQUIRE(run("render metals-furnace --size 16x16 --spp 4 --colourspace XYZ -o " + file("XYZ")).code == 0);
     XyzPicture const xyz = read_exr_as_xyz(file("XYZ"));
     for (std::string space : {"ACEScg", "ACES2065-1", "linear-sRGB", "Rec2020", "DisplayP3", "AdobeRGB"}) {
-        REQUIRE(run("render metals-furnace --size 16x16 --spp 4 --colourspace " + space + " -o " + file(space)).code == 0);
+        REQUIRE(run("render metals-furnace --size 16x16 --spp 4 --colourspace " + space + " -o " + file(space)).code ==
+                0);
         INFO(space);
         CHECK(compare(read_exr_as_xyz(file(space)), xyz).rmse < 1e-5);
     }
@@ -95,22 +98,26 @@ TEST_CASE("bad input leaves an existing output untouched", "[input]") {
 }
 
 TEST_CASE("wrong options are refused with exit code 2", "[input]") {
-    for (char const* arguments : {"", "rendr metals", "render", "render nosuchscene", "render metals --size 0x4", "render metals --size 4by4", "render metals --spp 0",
-                                  "render metals --colourspace sRGGB", "render metals --integrator bdpt", "render metals --nosuch 1", "render metals --spp 4 --time 3",
-                                  "render metals -o a.png", "render metals --preview a.exr --size 8x8", "compare a.exr", "compare /nonexistent.exr /nonexistent.exr"}) {
+    for (char const* arguments :
+         {"", "rendr metals", "render", "render nosuchscene", "render metals --size 0x4", "render metals --size 4by4",
+          "render metals --spp 0", "render metals --colourspace sRGGB", "render metals --integrator bdpt",
+          "render metals --nosuch 1", "render metals --spp 4 --time 3", "render metals -o a.png",
+          "render metals --preview a.exr --size 8x8", "compare a.exr", "compare /nonexistent.exr /nonexistent.exr"}) {
         Result const r = run(arguments);
         INFO(arguments << ": " << r.text);
         CHECK(r.code == 2);
         CHECK(r.text.size() > 10);
     }
     CHECK_THAT(run("render metals --colourspace ACESgc").text, Contains("did you mean 'ACEScg'?"));
-    CHECK_THAT(run("render metals --size 8x8 --spp 1 --preview /tmp/x.png --view Nice -o /tmp/x.exr").text, Contains("unknown view 'Nice'") && Contains("ACES SDR"));
+    CHECK_THAT(run("render metals --size 8x8 --spp 1 --preview /tmp/x.png --view Nice -o /tmp/x.exr").text,
+               Contains("unknown view 'Nice'") && Contains("ACES SDR"));
 }
 
 TEST_CASE("Ctrl-C saves what is there and exits with 130", "[app]") {
     test::TemporaryFolder const folder;
     std::string const out = (folder.path() / "a.exr").string();
-    Result const r = run("render cornell --size 64x64 --time 600 -o " + out + " & p=$!; sleep 2; kill -INT $p; wait $p");
+    Result const r =
+        run("render cornell --size 64x64 --time 600 -o " + out + " & p=$!; sleep 2; kill -INT $p; wait $p");
     INFO(r.text);
     CHECK(r.code == 130);
     CHECK(read_exr_as_xyz(out).xyz.width == 64);

@@ -16,7 +16,8 @@ TEST_CASE("scrambled Sobol points are a (0,2)-sequence", "[law]") {
                 std::set<std::uint32_t> cells;
                 for (std::uint32_t i = 0; i < (1u << k); ++i) {
                     SobolPoint const p = scrambled_sobol(i, seed);
-                    std::uint32_t const x = split ? p.x >> (32 - split) : 0, y = k - split ? p.y >> (32 - (k - split)) : 0;
+                    std::uint32_t const x = split ? p.x >> (32 - split) : 0,
+                                        y = k - split ? p.y >> (32 - (k - split)) : 0;
                     cells.insert(x << 16 | y);
                 }
                 CHECK(cells.size() == 1u << k);

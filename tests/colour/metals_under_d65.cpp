@@ -16,7 +16,8 @@ Xyz metal_colour(std::string const& name, double angle_deg) {
     TabulatedShape t;
     for (double nm = 360; nm <= 830; ++nm) {
         t.nm.push_back(nm);
-        t.value.push_back(fresnel(std::cos(radians(angle_deg)), m.n.at(nm), m.k.at(nm)).unpolarised() * unit_d65().at(nm));
+        t.value.push_back(fresnel(std::cos(radians(angle_deg)), m.n.at(nm), m.k.at(nm)).unpolarised() *
+                          unit_d65().at(nm));
     }
     return cie1931_2deg().integrate(SpectralFunction(std::move(t), Outside::zero));
 }
@@ -52,7 +53,11 @@ TEST_CASE("illuminants have their CIE chromaticities", "[law]") {  // CIE 15; E 
         char const* name;
         double x, y;
     };
-    for (Row const& r : {Row{"A", .44758, .40745}, {"D50", .34567, .35851}, {"D65", .31272, .32903}, {"D75", .29903, .31488}, {"E", .333314, .333288}}) {
+    for (Row const& r : {Row{"A", .44758, .40745},
+                         {"D50", .34567, .35851},
+                         {"D65", .31272, .32903},
+                         {"D75", .29903, .31488},
+                         {"E", .333314, .333288}}) {
         Chromaticity const c = named_white(std::string(r.name) + ":table");
         INFO(r.name);
         CHECK(c.x == Approx(r.x).margin(5e-5).epsilon(0));
@@ -93,7 +98,8 @@ TEST_CASE("the Rec.709 basis is a partition of unity with the right colours", "[
     for (Eigen::Vector3d const& c : {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(.2, .5, .1), Eigen::Vector3d(0, 0, 1)}) {
         Xyz const got = cie1931_2deg().integrate(rgb_to_spectrum(c, rgb::rec709, RgbRole::emission));
         // The space's white is the published D65, the light's its table: compare relative to each.
-        VectorDouble const wanted = (rgb::rec709.to_xyz_matrix() * c).cwiseQuotient(to_vector(to_xyz(named_white("D65"), 1)));
+        VectorDouble const wanted =
+            (rgb::rec709.to_xyz_matrix() * c).cwiseQuotient(to_vector(to_xyz(named_white("D65"), 1)));
         CHECK((to_vector(got).cwiseQuotient(to_vector(white)) - wanted).norm() < 3e-4);
     }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // `path` against `reference_path` by a z-test on six small scenes, closed forms, and determinism.
-#include <catch2/catch.hpp>
 #include <fmt/format.h>
+#include <catch2/catch.hpp>
 
 #include "support/scenes.h"
 #include "support/statistics.h"
@@ -11,7 +11,9 @@ using namespace iride;
 namespace {
 
 std::string scene_text(std::string const& camera, std::string const& rest) {
-    return fmt::format(R"({{ "camera": {}, "film": {{ "size": [12, 12] }}, "render": {{ "sampler": "independent" }}, {} }})", camera, rest);
+    return fmt::format(
+        R"({{ "camera": {}, "film": {{ "size": [12, 12] }}, "render": {{ "sampler": "independent" }}, {} }})", camera,
+        rest);
 }
 
 std::string const view = R"({ "eye": [0, 1, -4], "target": [0, 0.6, 0], "field_deg": 40 })";
@@ -75,23 +77,39 @@ void check_agreement(std::string const& name, std::string const& text) {
 // Fails when the light sample's divisor leaves out p_bsdf (Lambert scene: +30 %), when a dispersive transmission keeps
 // reach 1 in all lanes (glass: colours), and when the emitter found by scattering is not weighted.
 TEST_CASE("path and its reference agree: diffuse under a rectangle", "[law]") {
-    check_agreement("rectangle", scene_text(view, R"("shapes": [)" + floor_quad + "," + lamp + "," + sphere(R"({ "type": "diffuse", "reflectance": "cornell:red" })") + "]"));
+    check_agreement("rectangle",
+                    scene_text(view, R"("shapes": [)" + floor_quad + "," + lamp + "," +
+                                         sphere(R"({ "type": "diffuse", "reflectance": "cornell:red" })") + "]"));
 }
 TEST_CASE("path and its reference agree: rough gold under a sphere lamp", "[law]") {
-    check_agreement("sphere lamp", scene_text(view, R"("shapes": [)" + floor_quad + "," + big_lamp_sphere + "," + sphere(R"({ "type": "conductor", "ior": "Au", "roughness": 0.3 })") + "]"));
+    check_agreement("sphere lamp",
+                    scene_text(view, R"("shapes": [)" + floor_quad + "," + big_lamp_sphere + "," +
+                                         sphere(R"({ "type": "conductor", "ior": "Au", "roughness": 0.3 })") + "]"));
 }
 TEST_CASE("path and its reference agree: dispersive glass under a rectangle and sky", "[law]") {
-    check_agreement("glass", scene_text(view, R"("lights": [{ "type": "environment", "radiance": 0.3 }], "shapes": [)" + floor_quad + "," + lamp + "," + sphere(R"({ "type": "dielectric", "ior": { "pairs": [[300, 2.0], [900, 1.4]] } })") + "]"));
+    check_agreement(
+        "glass",
+        scene_text(
+            view, R"("lights": [{ "type": "environment", "radiance": 0.3 }], "shapes": [)" + floor_quad + "," + lamp +
+                      "," + sphere(R"({ "type": "dielectric", "ior": { "pairs": [[300, 2.0], [900, 1.4]] } })") + "]"));
 }
 TEST_CASE("path and its reference agree: mirror, disc and cylinder lamps", "[law]") {
-    check_agreement("disc, cylinder", scene_text(view, R"("shapes": [)" + floor_quad + "," + sphere(R"({ "type": "conductor", "ior": "Ag" })") +
-        R"(, { "type": "disc", "centre": [-1.5,2,0], "normal": [0.3,-1,0], "radius": 0.9, "material": { "type": "black" }, "emission": { "radiance": 2 } })"
-        R"(, { "type": "cylinder", "from": [1.4,0.3,0.5], "to": [1.6,1.9,0.9], "radius": 0.4, "material": { "type": "diffuse", "reflectance": 0.5 }, "emission": { "radiance": 1.5 } }])"));
+    check_agreement(
+        "disc, cylinder",
+        scene_text(
+            view,
+            R"("shapes": [)" + floor_quad + "," + sphere(R"({ "type": "conductor", "ior": "Ag" })") +
+                R"(, { "type": "disc", "centre": [-1.5,2,0], "normal": [0.3,-1,0], "radius": 0.9, "material": { "type": "black" }, "emission": { "radiance": 2 } })"
+                R"(, { "type": "cylinder", "from": [1.4,0.3,0.5], "to": [1.6,1.9,0.9], "radius": 0.4, "material": { "type": "diffuse", "reflectance": 0.5 }, "emission": { "radiance": 1.5 } }])"));
 }
 TEST_CASE("path and its reference agree: a mesh and a crooked quad as lamps", "[law]") {
-    check_agreement("mesh lamp", scene_text(view, R"("shapes": [)" + floor_quad +
-        R"(, { "type": "mesh", "vertices": [[-1,2,-1],[1,2.2,-1],[1,1.8,1],[-1.2,2.4,1]], "triangles": [[0,1,2],[0,2,3]], "material": { "type": "black" }, "emission": { "radiance": 2, "two_sided": true } })"
-        R"(, { "type": "quad", "corners": [[1.6,0,-1],[1.6,0,1.5],[1.6,1.4,0.8],[1.6,0.9,-0.7]], "material": { "type": "black" }, "emission": { "radiance": 1, "two_sided": true } }])"));
+    check_agreement(
+        "mesh lamp",
+        scene_text(
+            view,
+            R"("shapes": [)" + floor_quad +
+                R"(, { "type": "mesh", "vertices": [[-1,2,-1],[1,2.2,-1],[1,1.8,1],[-1.2,2.4,1]], "triangles": [[0,1,2],[0,2,3]], "material": { "type": "black" }, "emission": { "radiance": 2, "two_sided": true } })"
+                R"(, { "type": "quad", "corners": [[1.6,0,-1],[1.6,0,1.5],[1.6,1.4,0.8],[1.6,0.9,-0.7]], "material": { "type": "black" }, "emission": { "radiance": 1, "two_sided": true } }])"));
 }
 TEST_CASE("path and its reference agree: an instanced, squashed cone under a spot and a point", "[law]") {
     check_agreement("dirac lights", scene_text(view, R"("shapes": [)" + floor_quad + R"(],
@@ -118,10 +136,13 @@ TEST_CASE("a uniform closed cube shines as emission over one minus reflectance",
 }
 
 TEST_CASE("a white sphere in a furnace disappears", "[law]") {
-    auto const scene = test::scene_from(scene_text(view, R"("lights": [{ "type": "environment", "radiance": 1 }], "shapes": [)" + sphere(R"({ "type": "diffuse", "reflectance": 1 })") + "]"));
+    auto const scene =
+        test::scene_from(scene_text(view, R"("lights": [{ "type": "environment", "radiance": 1 }], "shapes": [)" +
+                                              sphere(R"({ "type": "diffuse", "reflectance": 1 })") + "]"));
     Film const film = test::rendered(*scene, "path", {.spp = 256, .seed = 3});
     for (int y = 0; y < film.height(); ++y)
-        for (int x = 0; x < film.width(); ++x) CHECK(film.mean(x, y).Y == Approx(1).margin(4 * std::sqrt(film.variance(x, y).Y) + 1e-5));
+        for (int x = 0; x < film.width(); ++x)
+            CHECK(film.mean(x, y).Y == Approx(1).margin(4 * std::sqrt(film.variance(x, y).Y) + 1e-5));
 }
 
 TEST_CASE("any number of threads and any tile order give the same bits", "[law]") {
@@ -129,10 +150,12 @@ TEST_CASE("any number of threads and any tile order give the same bits", "[law]"
     scene->film.width = 70;
     scene->film.height = 50;
     auto const picture = [&](int threads, bool reversed) {
-        Film const film = test::rendered(*scene, "path", {.spp = 8, .seed = 5, .threads = threads, .reversed_tiles = reversed});
+        Film const film =
+            test::rendered(*scene, "path", {.spp = 8, .seed = 5, .threads = threads, .reversed_tiles = reversed});
         std::vector<double> values;
         for (int y = 0; y < 50; ++y)
-            for (int x = 0; x < 70; ++x) values.insert(values.end(), {film.mean(x, y).X, film.mean(x, y).Y, film.variance(x, y).Z});
+            for (int x = 0; x < 70; ++x)
+                values.insert(values.end(), {film.mean(x, y).X, film.mean(x, y).Y, film.variance(x, y).Z});
         return values;
     };
     auto const one = picture(1, false);
@@ -143,7 +166,8 @@ TEST_CASE("any number of threads and any tile order give the same bits", "[law]"
 }
 
 TEST_CASE("a smooth gold plane shows gold's colour at the angle it is seen", "[law]") {
-    for (auto [angle, x, y, Y] : {std::tuple(0., .3818, .3887, .7679), {60., .3749, .3831, .7737}, {88., .3206, .3373, .9619}}) {
+    for (auto [angle, x, y, Y] :
+         {std::tuple(0., .3818, .3887, .7679), {60., .3749, .3831, .7737}, {88., .3206, .3373, .9619}}) {
         double const a = radians(angle);
         auto const scene = test::scene_from(fmt::format(
             R"({{ "camera": {{ "type": "orthographic", "eye": [{}, {}, 0], "target": [0,0,0], "up": [0,0,1], "window": 0.001 }}, "film": {{ "size": [4,4] }},

@@ -9,8 +9,9 @@ using namespace iride;
 // A constant radiance seen in every band: fails when lanes are deposited with the hero's density.
 TEST_CASE("bands of a constant spectrum show no comb over wavelength", "[law]") {
     for (int count : {1, 5, 8, 16, 47}) {
-        auto const scene = test::scene_from(R"({ "camera": { "eye": [0,0,0], "target": [0,0,1], "field_deg": 30 }, "film": { "size": [32,32], "bands": { "count": )" +
-                                            std::to_string(count) + R"( } }, "lights": [{ "type": "environment", "radiance": 1 }] })");
+        auto const scene = test::scene_from(
+            R"({ "camera": { "eye": [0,0,0], "target": [0,0,1], "field_deg": 30 }, "film": { "size": [32,32], "bands": { "count": )" +
+            std::to_string(count) + R"( } }, "lights": [{ "type": "environment", "radiance": 1 }] })");
         Film const film = test::rendered(*scene, "path", {.spp = 64, .seed = 8});
         for (int b = 0; b < count; ++b) {
             double mean = 0, square_sum = 0;
@@ -41,7 +42,8 @@ TEST_CASE("lanes follow the density they state", "[law]") {
             integral_of_one += 1.0 / static_cast<double>(w.density[k]) / draws / lane_count;
             REQUIRE(w.nm[k] >= 360);
             REQUIRE(w.nm[k] <= 830);
-            REQUIRE(static_cast<double>(w.nm[k]) == Approx(grid.first_nm + w.cell[k] + static_cast<double>(w.fraction[k])).margin(1e-4));
+            REQUIRE(static_cast<double>(w.nm[k]) ==
+                    Approx(grid.first_nm + w.cell[k] + static_cast<double>(w.fraction[k])).margin(1e-4));
         }
     }
     CHECK(integral_of_one == Approx(470).epsilon(1e-2));
@@ -49,7 +51,8 @@ TEST_CASE("lanes follow the density they state", "[law]") {
     constexpr int fine = 1 << 20;
     for (int i = 0; i < fine; ++i) {
         Wavelengths const w = sampler.sample((static_cast<float>(i) + 0.5f) / fine);
-        expected[static_cast<std::size_t>(std::min(bins - 1, static_cast<int>((w.nm[0] - 360) / 5)))] += static_cast<double>(draws) / fine;
+        expected[static_cast<std::size_t>(std::min(bins - 1, static_cast<int>((w.nm[0] - 360) / 5)))] +=
+            static_cast<double>(draws) / fine;
     }
     double statistic = 0;
     for (std::size_t b = 0; b < bins; ++b) statistic += square(count[b] - expected[b]) / std::max(expected[b], 1e-9);
@@ -58,6 +61,7 @@ TEST_CASE("lanes follow the density they state", "[law]") {
     for (float u = 0.01f; u < 0.99f; u += 0.013f) {
         Wavelengths const a = sampler.sample(u), b = sampler.sample(u + 1e-4f);
         if (b.nm[0] > a.nm[0])
-            CHECK(1e-4 / static_cast<double>(b.nm[0] - a.nm[0]) == Approx(static_cast<double>(a.density[0])).epsilon(0.05));
+            CHECK(1e-4 / static_cast<double>(b.nm[0] - a.nm[0]) ==
+                  Approx(static_cast<double>(a.density[0])).epsilon(0.05));
     }
 }

@@ -26,7 +26,8 @@ std::vector<NamedModel> models() {
     };
     std::vector<NamedModel> all{{"lambert", Lambert{lanes(.3f, .1f)}}};
     for (float alpha : {.05f, .2f, .5f, 1.0f})
-        all.push_back({"rough conductor", RoughConductor{lanes(.15f, .2f), lanes(3, .1f), {alpha}}, alpha < .1f ? 200 : 32});
+        all.push_back(
+            {"rough conductor", RoughConductor{lanes(.15f, .2f), lanes(3, .1f), {alpha}}, alpha < .1f ? 200 : 32});
     return all;
 }
 
@@ -48,8 +49,10 @@ TEST_CASE("sampled directions follow the stated density", "[law]") {
             test::DirectionHistogram histogram;
             Sampler sampler(SamplerKind::independent, 7, 1, static_cast<std::uint32_t>(angle));
             for (int i = 0; i < samples; ++i) {
-                if (auto const s = m.bsdf.sample(wo, numbers(sampler))) histogram.add(s->wi);
-                else histogram.add_nothing();
+                if (auto const s = m.bsdf.sample(wo, numbers(sampler)))
+                    histogram.add(s->wi);
+                else
+                    histogram.add_nothing();
             }
             INFO(m.name << " at " << angle);
             auto const density = [&](Direction const& wi) {
@@ -84,7 +87,8 @@ TEST_CASE("light and viewer may change places", "[law]") {
             for (double b : {10., 55., 85.}) {
                 Direction const w1 = at_angle(a), w2 = at_angle(b, 1.9);
                 for (int lane = 0; lane < lane_count; ++lane)
-                    CHECK(m.bsdf.evaluate(w1, w2).value[lane] == Approx(m.bsdf.evaluate(w2, w1).value[lane]).epsilon(1e-4));
+                    CHECK(m.bsdf.evaluate(w1, w2).value[lane] ==
+                          Approx(m.bsdf.evaluate(w2, w1).value[lane]).epsilon(1e-4));
             }
 }
 

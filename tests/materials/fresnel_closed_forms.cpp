@@ -57,7 +57,8 @@ TEST_CASE("lanes agree with double precision to 1e-5", "[law]") {
     for (float n : {.05f, .3f, 1.5f, 5.f})
         for (float k : {0.f, .5f, 3.f, 9.f})
             for (float c : {1.f, .9f, .5f, .1f, 1e-3f}) {
-                double const exact = fresnel(static_cast<double>(c), static_cast<double>(n), static_cast<double>(k)).unpolarised();
+                double const exact =
+                    fresnel(static_cast<double>(c), static_cast<double>(n), static_cast<double>(k)).unpolarised();
                 CHECK(fresnel_unpolarised(c, Lanes(n), Lanes(k))[0] == Approx(exact).epsilon(1e-5));
             }
 }

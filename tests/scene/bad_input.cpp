@@ -21,7 +21,9 @@ std::string refusal(std::string const& text, std::vector<std::pair<std::string, 
 }
 
 std::string with(std::string const& rest) {
-    return R"({ "camera": { "eye": [0,0,-5], "target": [0,0,0], "field_deg": 40 },)" "\n" + rest + "}";
+    return R"({ "camera": { "eye": [0,0,-5], "target": [0,0,0], "field_deg": 40 },)"
+           "\n" +
+           rest + "}";
 }
 std::string shape(std::string const& keys) { return with(R"("shapes": [ { )" + keys + " } ]"); }
 std::string const grey = R"("material": { "type": "diffuse", "reflectance": 0.5 })";
@@ -33,51 +35,79 @@ TEST_CASE("an unknown key offers the nearest name, with line and column", "[inpu
                Contains("scene.json:2:") && Contains("shapes[0].center: unknown key; did you mean 'centre'?"));
 }
 TEST_CASE("all diagnostics of a file come at once", "[input]") {
-    std::string const text = refusal(with(R"("film": { "size": [0, 10], "exposure": -1 }, "shapes": [ { "type": "sphere", "centre": [0,0], "radius": 0, "material": "gold" } ])"));
-    CHECK_THAT(text, Contains("film.size: found 0 x 10, allowed: whole numbers 1") && Contains("film.exposure: found -1, allowed: above 0") &&
+    std::string const text = refusal(with(
+        R"("film": { "size": [0, 10], "exposure": -1 }, "shapes": [ { "type": "sphere", "centre": [0,0], "radius": 0, "material": "gold" } ])"));
+    CHECK_THAT(text, Contains("film.size: found 0 x 10, allowed: whole numbers 1") &&
+                         Contains("film.exposure: found -1, allowed: above 0") &&
                          Contains("shapes[0].centre: found an array of 2, but an array of 3 numbers is wanted") &&
-                         Contains("shapes[0].radius: found 0, allowed: above 0") && Contains("unknown material 'gold'"));
+                         Contains("shapes[0].radius: found 0, allowed: above 0") &&
+                         Contains("unknown material 'gold'"));
 }
 TEST_CASE("unknown material names and types are refused", "[input]") {
-    CHECK_THAT(refusal(R"({ "camera": { "eye": [0,0,-5], "target": [0,0,0], "field_deg": 40 }, "materials": { "gold": { "type": "conductor", "ior": "Au" } },
+    CHECK_THAT(
+        refusal(
+            R"({ "camera": { "eye": [0,0,-5], "target": [0,0,0], "field_deg": 40 }, "materials": { "gold": { "type": "conductor", "ior": "Au" } },
                  "shapes": [ { "type": "sphere", "centre": [0,0,0], "radius": 1, "material": "glod" } ] })"),
-               Contains("shapes[0].material: unknown material 'glod'; did you mean 'gold'?"));
-    CHECK_THAT(refusal(with(R"("materials": { "a": { "type": "difuse", "reflectance": 1 } })")), Contains("did you mean 'diffuse'?"));
+        Contains("shapes[0].material: unknown material 'glod'; did you mean 'gold'?"));
+    CHECK_THAT(refusal(with(R"("materials": { "a": { "type": "difuse", "reflectance": 1 } })")),
+               Contains("did you mean 'diffuse'?"));
 }
 TEST_CASE("missing files are named", "[input]") {
-    CHECK_THAT(refusal(shape(R"("type": "mesh", "file": "no.ply", )" + grey)), Contains("shapes[0].file") && Contains("no.ply"));
-    CHECK_THAT(refusal(with(R"("materials": { "a": { "type": "conductor", "ior": "Aurum" } })")), Contains("'Aurum' is neither a shipped"));
+    CHECK_THAT(refusal(shape(R"("type": "mesh", "file": "no.ply", )" + grey)),
+               Contains("shapes[0].file") && Contains("no.ply"));
+    CHECK_THAT(refusal(with(R"("materials": { "a": { "type": "conductor", "ior": "Aurum" } })")),
+               Contains("'Aurum' is neither a shipped"));
     CHECK_THROWS_WITH(load_scene("/nonexistent/scene.json"), Contains("no such file"));
     CHECK_THROWS_WITH(find_scene("metal"), Contains("did you mean 'metals'?"));
 }
 TEST_CASE("meshes with NaN vertices or bad indices are refused", "[input]") {
-    CHECK_THAT(refusal(shape(R"("type": "mesh", "file": "a.obj", )" + grey), {{"a.obj", "v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"}}), Contains("a.obj"));
-    CHECK_THAT(refusal(shape(R"("type": "mesh", "file": "a.obj", )" + grey), {{"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"}}), Contains("a.obj"));
-    CHECK_THAT(refusal(shape(R"("type": "mesh", "vertices": [[0,0,0],[1,0,0],[0,1,0]], "triangles": [[0,1,3]], )" + grey)),
-               Contains("triangles[0]: vertex numbers are in 0 .. 2"));
+    CHECK_THAT(refusal(shape(R"("type": "mesh", "file": "a.obj", )" + grey),
+                       {{"a.obj", "v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"}}),
+               Contains("a.obj"));
+    CHECK_THAT(refusal(shape(R"("type": "mesh", "file": "a.obj", )" + grey),
+                       {{"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"}}),
+               Contains("a.obj"));
+    CHECK_THAT(
+        refusal(shape(R"("type": "mesh", "vertices": [[0,0,0],[1,0,0],[0,1,0]], "triangles": [[0,1,3]], )" + grey)),
+        Contains("triangles[0]: vertex numbers are in 0 .. 2"));
 }
 TEST_CASE("emitters without area are refused", "[input]") {
-    CHECK_THAT(refusal(shape(R"("type": "mesh", "vertices": [[0,0,0],[1,0,0],[2,0,0]], "triangles": [[0,1,2]], "emission": { "radiance": 1 }, )" + grey)),
-               Contains("shapes[0].emission: this emitter has no area"));
-    CHECK_THAT(refusal(shape(R"("type": "quad", "corners": [[0,0,0],[1,0,0],[2,0,0],[3,0,0]], )" + grey)), Contains("the quad has no area"));
+    CHECK_THAT(
+        refusal(shape(
+            R"("type": "mesh", "vertices": [[0,0,0],[1,0,0],[2,0,0]], "triangles": [[0,1,2]], "emission": { "radiance": 1 }, )" +
+            grey)),
+        Contains("shapes[0].emission: this emitter has no area"));
+    CHECK_THAT(refusal(shape(R"("type": "quad", "corners": [[0,0,0],[1,0,0],[2,0,0],[3,0,0]], )" + grey)),
+               Contains("the quad has no area"));
 }
 TEST_CASE("reflectances outside 0 .. 1 are refused", "[input]") {
-    CHECK_THAT(refusal(with(R"("materials": { "a": { "type": "diffuse", "reflectance": 1.2 } })")), Contains("materials.a.reflectance: values 1.2 .. 1.2 over the render range, allowed: in 0 .. 1"));
-    CHECK_THAT(refusal(with(R"("materials": { "a": { "type": "diffuse", "reflectance": { "pairs": [[400, 0.2], [500, -0.1]] } } })")), Contains("values -0.1 .. 0.2"));
-    CHECK_THAT(refusal(with(R"("materials": { "a": { "type": "diffuse", "reflectance": { "rgb": [0, 1, 0], "space": "ACEScg" } } })")), Contains("in linear Rec.709 this colour is"));
+    CHECK_THAT(refusal(with(R"("materials": { "a": { "type": "diffuse", "reflectance": 1.2 } })")),
+               Contains("materials.a.reflectance: values 1.2 .. 1.2 over the render range, allowed: in 0 .. 1"));
+    CHECK_THAT(
+        refusal(with(
+            R"("materials": { "a": { "type": "diffuse", "reflectance": { "pairs": [[400, 0.2], [500, -0.1]] } } })")),
+        Contains("values -0.1 .. 0.2"));
+    CHECK_THAT(
+        refusal(with(
+            R"("materials": { "a": { "type": "diffuse", "reflectance": { "rgb": [0, 1, 0], "space": "ACEScg" } } })")),
+        Contains("in linear Rec.709 this colour is"));
 }
 TEST_CASE("an n, k table must cover the render range", "[input]") {
     CHECK_THAT(refusal(with(R"("materials": { "a": { "type": "dielectric", "ior": "SF11" } })")),
                Contains("'SF11' is given on 390..2500 nm, the render range is 360..830 nm") && Contains("outside"));
 }
 TEST_CASE("singular transforms are refused", "[input]") {
-    CHECK_THAT(refusal(shape(R"("type": "sphere", "centre": [0,0,0], "radius": 1, "transform": [ { "scale": [1, 0, 1] } ], )" + grey)),
-               Contains("shapes[0].transform: the transform is singular"));
+    CHECK_THAT(
+        refusal(shape(R"("type": "sphere", "centre": [0,0,0], "radius": 1, "transform": [ { "scale": [1, 0, 1] } ], )" +
+                      grey)),
+        Contains("shapes[0].transform: the transform is singular"));
 }
 TEST_CASE("a truncated or damaged environment picture is refused", "[input]") {
     std::string const exr("\x76\x2f\x31\x01\x02\x00\x00\x00", 8);
-    CHECK_THAT(refusal(with(R"("lights": [ { "type": "environment", "image": "sky.exr" } ])"), {{"sky.exr", exr}}), Contains("lights[0].image") && Contains("sky.exr"));
-    CHECK_THAT(refusal(with(R"("lights": [ { "type": "environment", "image": "none.exr" } ])")), Contains("no such file"));
+    CHECK_THAT(refusal(with(R"("lights": [ { "type": "environment", "image": "sky.exr" } ])"), {{"sky.exr", exr}}),
+               Contains("lights[0].image") && Contains("sky.exr"));
+    CHECK_THAT(refusal(with(R"("lights": [ { "type": "environment", "image": "none.exr" } ])")),
+               Contains("no such file"));
 }
 TEST_CASE("nesting, emptiness and size of the file itself are checked first", "[input]") {
     CHECK_THAT(refusal(std::string(100000, '[')), Contains("nested deeper than 64 levels"));

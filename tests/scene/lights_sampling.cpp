@@ -58,11 +58,13 @@ TEST_CASE("a disc lamp is sampled by area", "[law]") {
     check_light(R"("type": "disc", "centre": [0.3,1.1,0.2], "normal": [0.2,-1,0.1], "radius": 0.9)", {0, 0, 0});
 }
 TEST_CASE("a triangle lamp is sampled uniformly in solid angle", "[law]") {
-    check_light(R"("type": "mesh", "vertices": [[-1,1,-1],[1.4,1.2,-0.8],[0.3,0.9,1.5]], "triangles": [[0,1,2]])", {0.1f, 0, 0.2f});
+    check_light(R"("type": "mesh", "vertices": [[-1,1,-1],[1.4,1.2,-0.8],[0.3,0.9,1.5]], "triangles": [[0,1,2]])",
+                {0.1f, 0, 0.2f});
 }
 
 TEST_CASE("a far sphere lamp gives the irradiance pi L (r / d)^2", "[law]") {
-    auto const scene = test::scene_from(R"({ "camera": { "eye": [0,5,0], "target": [0,0,0], "up": [0,0,1], "field_deg": 0.1 }, "film": { "size": [2,2] },
+    auto const scene = test::scene_from(
+        R"({ "camera": { "eye": [0,5,0], "target": [0,0,0], "up": [0,0,1], "field_deg": 0.1 }, "film": { "size": [2,2] },
         "shapes": [ { "type": "quad", "corners": [[-1,0,-1],[-1,0,1],[1,0,1],[1,0,-1]], "material": { "type": "diffuse", "reflectance": 1 } },
                     { "type": "sphere", "centre": [0,200,0], "radius": 1, "material": { "type": "black" }, "emission": { "radiance": 10000 } } ] })");
     Film const film = test::rendered(*scene, "path", {.spp = 4096, .seed = 6});

@@ -59,16 +59,20 @@ class DirectionHistogram {
                 double const expected = total_ * integral(density, r, c, n);
                 double const count = count_[static_cast<std::size_t>(r * columns_ + c)];
                 expected_sum += expected;
-                if (expected >= 5) account(expected, count);
-                else pooled_expected += expected, pooled_count += count;
+                if (expected >= 5)
+                    account(expected, count);
+                else
+                    pooled_expected += expected, pooled_count += count;
             }
         double const lost = total_ - expected_sum;  // directions that cannot be
         double counted = 0;
         for (double k : count_) counted += k;
         constexpr double quadrature_error = 2e-4;  // over a narrow lobe: no loss to speak of
         if (lost > quadrature_error * total_) account(lost, total_ - counted);
-        if (pooled_expected >= 5) account(pooled_expected, pooled_count);
-        else if (pooled_count > 25 + 5 * pooled_expected) return 0;  // samples where there is no density
+        if (pooled_expected >= 5)
+            account(pooled_expected, pooled_count);
+        else if (pooled_count > 25 + 5 * pooled_expected)
+            return 0;  // samples where there is no density
         return chi_squared_tail(statistic, cells - 1);
     }
     double integral_of(std::function<double(Direction const&)> const& density, int n = 16) const {
