@@ -263,6 +263,7 @@ std::optional<Hit> Accelerator::closest(Ray const& ray, RayStatistics& statistic
         rtcIntersect1(self.scene, &context, &rh);
     }
     ++statistics.closest_rays;
+    if (statistics.recording) statistics.recording->push_back({ray, false});
     if (rh.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
 
     Hit hit;
@@ -305,6 +306,7 @@ bool Accelerator::occluded(Ray const& ray, RayStatistics& statistics) const {
         rtcOccluded1(implementation_->scene, &context, &r);
     }
     ++statistics.shadow_rays;
+    if (statistics.recording) statistics.recording->push_back({ray, true});
     return r.tfar < 0;
 }
 

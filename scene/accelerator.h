@@ -29,11 +29,18 @@ struct Hit {
     float distance;           // metres along the ray
 };
 
+// A ray as it was asked for, so that a benchmark can trace the same ones bare.
+struct RecordedRay {
+    Ray ray;
+    bool shadow;
+};
+
 // Counters of one thread. Every 64th camera path is timed, ray by ray, to tell the share of Embree.
 struct RayStatistics {
     std::uint64_t closest_rays = 0, shadow_rays = 0;
     std::uint64_t traced_ticks = 0;  // inside Embree, on timed paths
     bool timed = false;
+    std::vector<RecordedRay>* recording = nullptr;  // every ray goes here if it is set
 
     void add(RayStatistics const& other);
 };
