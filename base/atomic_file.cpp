@@ -2,8 +2,10 @@
 #include "base/atomic_file.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -15,31 +17,42 @@ namespace iride {
 namespace {
 
 [[noreturn]] void fail(std::filesystem::path const& target, std::string const& message) {
-    throw InputError(Diagnostic{{target.string()}, "", "cannot be written: " + message});
+    Diagnostic diagnostic;
+    diagnostic.where.file = target.string();
+    diagnostic.message = "cannot be written: " + message;
+    throw InputError(std::move(diagnostic));
 }
 
 std::filesystem::path folder_of(std::filesystem::path const& target) {
     return target.has_parent_path() ? target.parent_path() : std::filesystem::path(".");
 }
 
-}  // namespace
-
-void check_writable(std::filesystem::path const& target) {
+// What can be told without writing anything.
+void refuse_impossible(std::filesystem::path const& target) {
     std::error_code error;
     std::filesystem::path const folder = folder_of(target);
     if (!target.has_filename()) fail(target, "it names no file");
     if (!std::filesystem::exists(folder, error)) fail(target, "the folder '" + folder.string() + "' does not exist");
     if (!std::filesystem::is_directory(folder, error)) fail(target, "'" + folder.string() + "' is not a folder");
     if (std::filesystem::is_directory(target, error)) fail(target, "it is a folder");
+    // Renaming onto a device, say /dev/null, would replace it.
+    if (std::filesystem::exists(target, error) && !std::filesystem::is_regular_file(target, error))
+        fail(target, "it is not a regular file");
     if (::access(folder.c_str(), W_OK | X_OK) != 0)
         fail(target, "the folder '" + folder.string() + "' is not writable: " + std::strerror(errno));
 }
 
+}  // namespace
+
+// Root may write everywhere by access() and fails at the first file it creates in /proc: only trying tells.
+void check_writable(std::filesystem::path const& target) { AtomicFile const trial(target); }
+
 AtomicFile::AtomicFile(std::filesystem::path target) : target_(std::move(target)) {
-    check_writable(target_);
-    std::string const name = "." + target_.stem().string() + "." + std::to_string(::getpid()) + ".part";
-    temporary_ = folder_of(target_) / (name + target_.extension().string());
-    int const file = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    refuse_impossible(target_);
+    static std::atomic<unsigned> serial{0};  // two files of one process for one target do not meet
+    temporary_ = folder_of(target_) / fmt::format(".{}.{}-{}.part{}", target_.stem().string(), ::getpid(), serial++,
+                                                  target_.extension().string());
+    int const file = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0666);
     if (file < 0) fail(target_, std::strerror(errno));
     ::close(file);
 }

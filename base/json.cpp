@@ -3,10 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <unordered_set>
 
 namespace iride {
 
@@ -47,47 +48,52 @@ struct Position {
     int line, column;
 };
 
-// Builds the tree from the library's events. A value's place is the first character after the separators that follow
-// the previous event.
+// The library quotes what it has read last, which may be a string of megabytes: the middle is left out.
+std::string shortened(std::string const& message) {
+    constexpr std::size_t longest = 240, head = 160, tail = 60;
+    if (message.size() <= longest) return message;
+    return message.substr(0, head) + " ... " + message.substr(message.size() - tail);
+}
+
+// Builds the tree from the library's events. An event comes as soon as its token has been read; a number's alone comes
+// one character late, since only the next one ends it. Between tokens stand white space, comments, ',' and ':'.
 class TreeBuilder : public nlohmann::json_sax<Library> {
   public:
-    TreeBuilder(std::string_view text, std::string file) : text_(text), file_(std::move(file)), scanned_(text.data()) {}
+    TreeBuilder(std::string_view text, std::string file) : text_(text), file_(std::move(file)), scanned_(text.data()) {
+        constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+        if (text.starts_with(byte_order_mark)) scanned_ += byte_order_mark.size();
+    }
 
-    char const* consumed = nullptr;
+    char const* consumed = nullptr;  // end of what the library has read
     JsonValue root;
 
-    bool null() override { return put(nullptr); }
-    bool boolean(bool b) override { return put(b); }
-    bool number_integer(number_integer_t n) override { return put(static_cast<double>(n)); }
-    bool number_unsigned(number_unsigned_t n) override { return put(static_cast<double>(n)); }
-    bool number_float(number_float_t n, string_t const& text) override {
-        if (!std::isfinite(n)) fail(place(), "the number " + text.substr(0, 40) + " is too large");
-        return put(static_cast<double>(n));
-    }
-    bool string(string_t& s) override { return put(s); }
-    bool binary(binary_t&) override { return false; }
+    bool null() override { return put(nullptr, consumed); }
+    bool boolean(bool b) override { return put(b, consumed); }
+    bool number_integer(number_integer_t n) override { return put_number(static_cast<double>(n)); }
+    bool number_unsigned(number_unsigned_t n) override { return put_number(static_cast<double>(n)); }
+    bool number_float(number_float_t n, string_t const&) override { return put_number(static_cast<double>(n)); }
+    bool string(string_t& s) override { return put(std::move(s), consumed); }
+    bool binary(binary_t&) override { return false; }  // no token of JSON's text form
     bool start_object(std::size_t) override { return open(JsonObject{}); }
     bool start_array(std::size_t) override { return open(JsonArray{}); }
     bool end_object() override { return close(); }
     bool end_array() override { return close(); }
     bool key(string_t& name) override {
-        Position const where = place();
-        auto& object = std::get<JsonObject>(open_.back()->value);
-        for (auto const& entry : object)
-            if (entry.first == name) fail(where, fmt::format("the key '{}' is there twice", name));
-        object.emplace_back(name, JsonValue{});
-        advance();
+        Position const where = next_token();
+        if (!open_.back().keys.insert(name).second) fail(where, fmt::format("the key '{}' is there twice", name));
+        std::get<JsonObject>(open_.back().value->value).emplace_back(name, JsonValue{});
+        scan_to(consumed);
         return true;
     }
-    bool parse_error(std::size_t position, std::string const&, nlohmann::detail::exception const& e) override {
+    bool parse_error(std::size_t position, std::string const& token, nlohmann::detail::exception const& e) override {
+        constexpr int number_overflow = 406;
+        if (e.id == number_overflow)
+            fail(next_token(), shortened("the number " + token + " is too large for a double"));
         // "[json.exception.parse_error.101] parse error at line 1, column 2: syntax error while ...; expected ..."
-        std::string message = e.what();
-        if (auto const colon = message.find(": "); colon != std::string::npos) message.erase(0, colon + 2);
-        scanned_ = text_.data();
-        line_ = column_ = 1;
-        std::size_t const at = std::min(position > 0 ? position - 1 : 0, text_.size());
-        scan_to(text_.data() + at);
-        fail({line_, column_}, message);
+        std::string const message = e.what();
+        std::size_t const colon = message.find(": ");
+        scan_to(text_.data() + std::min(position > 0 ? position - 1 : 0, text_.size()));
+        fail({line_, column_}, shortened(colon == std::string::npos ? message : message.substr(colon + 2)));
     }
 
     [[noreturn]] void fail(Position where, std::string const& message) const {
@@ -95,35 +101,46 @@ class TreeBuilder : public nlohmann::json_sax<Library> {
     }
 
   private:
-    bool put(decltype(JsonValue::value) value) {
-        Position const where = place();
-        advance();
+    using Value = decltype(JsonValue::value);
+    struct Open {
+        JsonValue* value;  // stays good: a container grows only while it is the innermost
+        std::unordered_set<std::string> keys;
+    };
+
+    bool put(Value value, char const* token_end) {
+        Position const where = next_token();
         slot() = JsonValue{std::move(value), where.line, where.column};
+        scan_to(token_end);
         return true;
     }
-    bool open(decltype(JsonValue::value) container) {
-        Position const where = place();
+    bool put_number(double number) {
+        next_token();
+        std::string_view const rest(scanned_, static_cast<std::size_t>(text_.data() + text_.size() - scanned_));
+        return put(number, scanned_ + std::min(rest.find_first_not_of("+-.0123456789eE"), rest.size()));
+    }
+    bool open(Value container) {
+        Position const where = next_token();
         if (open_.size() >= deepest) fail(where, fmt::format("nested deeper than {} levels", deepest));
-        advance();
         JsonValue& here = slot();
         here = JsonValue{std::move(container), where.line, where.column};
-        open_.push_back(&here);
+        open_.push_back({&here, {}});
+        scan_to(consumed);
         return true;
     }
     bool close() {
         open_.pop_back();
-        advance();
+        scan_to(consumed);
         return true;
     }
-    // Where the next value goes. Pointers into open_ stay good: a container grows only while it is innermost.
+    // Where the next value goes.
     JsonValue& slot() {
         if (open_.empty()) return root;
-        if (JsonArray* array = std::get_if<JsonArray>(&open_.back()->value)) return array->emplace_back();
-        return std::get<JsonObject>(open_.back()->value).back().second;
+        if (JsonArray* array = std::get_if<JsonArray>(&open_.back().value->value)) return array->emplace_back();
+        return std::get<JsonObject>(open_.back().value->value).back().second;
     }
 
-    // Line and column of the first character of the value or key that has just been read.
-    Position place() {
+    // Go on to the first character of the token that has just been read, and tell its place.
+    Position next_token() {
         char const* const end = text_.data() + text_.size();
         char const* p = scanned_;
         while (p < end) {
@@ -142,33 +159,21 @@ class TreeBuilder : public nlohmann::json_sax<Library> {
         scan_to(p);
         return {line_, column_};
     }
+    // Columns count characters: the continuation bytes 10xxxxxx of UTF-8 do not.
     void scan_to(char const* to) {
         for (; scanned_ < to; ++scanned_) {
             if (*scanned_ == '\n')
                 ++line_, column_ = 1;
-            else
+            else if ((static_cast<unsigned char>(*scanned_) & 0xC0) != 0x80)
                 ++column_;
         }
-    }
-    // Go on behind what has been consumed. A number ends by reading one character too many, perhaps a bracket.
-    void advance() {
-        char const* end = consumed ? consumed : text_.data();
-        if (end > scanned_ && end > text_.data()) {
-            char const last = end[-1];
-            bool const ends_itself = *scanned_ == '"' || *scanned_ == '[' || *scanned_ == '{' || *scanned_ == 't' ||
-                                     *scanned_ == 'f' || *scanned_ == 'n' || *scanned_ == ']' || *scanned_ == '}';
-            if (!ends_itself && (last == ',' || last == ']' || last == '}' || last == '/' ||
-                                 std::isspace(static_cast<unsigned char>(last))))
-                --end;
-        }
-        scan_to(end);
     }
 
     std::string_view text_;
     std::string file_;
-    char const* scanned_;
+    char const* scanned_;  // the character that line_ and column_ are those of
     int line_ = 1, column_ = 1;
-    std::vector<JsonValue*> open_;
+    std::vector<Open> open_;
 };
 
 }  // namespace
@@ -202,6 +207,7 @@ JsonValue read_json(std::filesystem::path const& path) {
     if (!std::filesystem::exists(status)) fail("no such file");
     if (!std::filesystem::is_regular_file(status)) fail("is not a regular file");
     std::uintmax_t const size = std::filesystem::file_size(path, error);
+    if (error) fail("cannot be read: " + error.message());
     if (size > largest_file) fail(fmt::format("has {} MiB, allowed: at most {} MiB", size >> 20, largest_file >> 20));
     std::ifstream in(path, std::ios::binary);
     if (!in) fail("cannot be read");
