@@ -41,17 +41,17 @@ bool is_index(std::string const& column) { return column == "nk" || column == "n
 char const* described(SpectralQuantity quantity) {
     switch (quantity) {
         case SpectralQuantity::complex_index:
-            return "an index of refraction";
+            return "index of refraction";
         case SpectralQuantity::reflectance:
-            return "a reflectance";
+            return "reflectance";
         case SpectralQuantity::power:
-            return "a spectral power";
+            return "spectral power";
         case SpectralQuantity::radiance:
-            return "a radiance";
+            return "radiance";
         case SpectralQuantity::matching_functions:
-            return "matching functions";
+            return "set of matching functions";
         case SpectralQuantity::transmittance:
-            return "a transmittance";
+            return "transmittance";
     }
     return "";
 }
@@ -67,7 +67,7 @@ bool serves(std::string const& column, SpectralQuantity quantity) {
 std::string unknown(std::string const& name, SpectralQuantity quantity) {
     std::string const near = nearest_name(name, catalogue_names(quantity));
     return fmt::format(
-        "'{}' is neither a shipped {} nor a file{}", name, described(quantity) + 2,
+        "'{}' is neither a shipped {} nor a file{}", name, described(quantity),
         near.empty() ? std::string("; data/README.md lists the names") : fmt::format("; did you mean '{}'?", near));
 }
 
@@ -121,8 +121,10 @@ SpectralFunction load_spectrum(std::string const& name, SpectralQuantity quantit
                             : quantity == SpectralQuantity::reflectance ? Outside::hold
                                                                         : Outside::zero;
     if (auto const entry = catalogue().find(name); entry != catalogue().end()) {
-        if (!serves(entry->second.column, quantity)) fail(fmt::format("'{}' is not {}", name, described(quantity)));
+        if (!serves(entry->second.column, quantity)) fail(fmt::format("'{}' is no {}", name, described(quantity)));
+        if (entry->second.column == "nk") fail(fmt::format("'{}' holds n and k, but one of them is wanted", name));
         SpectrumFile const file = read_spectrum_file(data_folder() / entry->second.file);
+        if (!file.formula.empty()) return SpectralFunction(file.formula.front(), outside, name);
         return SpectralFunction(table_of(file, entry->second.column), outside, name);
     }
     // A path, perhaps with ":column".

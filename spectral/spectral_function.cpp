@@ -31,7 +31,7 @@ double evaluate(TabulatedShape const& t, Outside outside, double nm) {
 }
 
 // sellmeier_squared: n^2 - 1 = c0 + sum c[2i+1] L^2 / (L^2 - c[2i+2]^2)      sellmeier: the same with c[2i+2]
-// general:           n^2 = c0 + sum over up to two terms c1 L^c2 / (L^2 - c3^c4)
+// general:           n^2 = c0 + sum over the first two terms c1 L^c2 / (L^2 - c3^c4) + sum over further c9 L^c10
 double evaluate(DispersionShape const& d, Outside outside, double nm) {
     if (outside != Outside::extrapolate) nm = std::clamp(nm, d.valid.min_nm, d.valid.max_nm);
     double const L = nm * 1e-3, L2 = L * L;
@@ -40,6 +40,7 @@ double evaluate(DispersionShape const& d, Outside outside, double nm) {
     if (d.formula == DispersionShape::Formula::general) {
         for (std::size_t i = 1; i + 3 < c.size() && i <= 5; i += 4)
             n2 += c[i] * std::pow(L, c[i + 1]) / (L2 - std::pow(c[i + 2], c[i + 3]));
+        for (std::size_t i = 9; i + 1 < c.size(); i += 2) n2 += c[i] * std::pow(L, c[i + 1]);
         return std::sqrt(n2);
     }
     n2 += 1;
