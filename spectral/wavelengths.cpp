@@ -35,23 +35,24 @@ WavelengthSampler::WavelengthSampler(WavelengthRange const& range, SpectralFunct
 }
 
 Wavelengths WavelengthSampler::sample(float u) const {
-    static_assert(segment_count % lane_count == 0);
+    static_assert(segment_count % lane_count == 0 && (segment_count & (segment_count - 1)) == 0);
     float const scaled = u * segment_count;
     int const hero_segment = std::min(static_cast<int>(scaled), segment_count - 1);
     float const f = scaled - static_cast<float>(hero_segment);
-    Wavelengths w;
+    LaneRegister low, high;
     for (int i = 0; i < lane_count; ++i) {
-        int const segment = (hero_segment + i * (segment_count / lane_count)) % segment_count;
-        float const low = knot_nm_[static_cast<std::size_t>(segment)];
-        float const width = knot_nm_[static_cast<std::size_t>(segment) + 1] - low;
-        float const nm = low + f * width;
-        float const on_grid = nm - static_cast<float>(grid_first_nm_);
-        int const cell = std::min(static_cast<int>(on_grid), grid_cells_ - 1);
-        w.nm[i] = nm;
-        w.density.set(i, 1 / (segment_count * width));
-        w.cell[i] = cell;
-        w.fraction[i] = on_grid - static_cast<float>(cell);
+        int const segment = (hero_segment + i * (segment_count / lane_count)) & (segment_count - 1);
+        low[i] = knot_nm_[static_cast<std::size_t>(segment)];
+        high[i] = knot_nm_[static_cast<std::size_t>(segment) + 1];
     }
+    LaneRegister const width = high - low;
+    Wavelengths w;
+    w.nm = low + f * width;
+    w.density.lane = 1.0f / (static_cast<float>(segment_count) * width);
+    LaneRegister const on_grid = w.nm - static_cast<float>(grid_first_nm_);
+    LaneIndex const cell = __builtin_convertvector(on_grid, LaneIndex), last = LaneIndex{} + (grid_cells_ - 1);
+    w.cell = cell < last ? cell : last;
+    w.fraction = on_grid - __builtin_convertvector(w.cell, LaneRegister);
     return w;
 }
 
