@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "colour/lab.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/vector.h"

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <set>
 
 #include "base/diagnostics.h"
@@ -100,7 +101,8 @@ Eigen::VectorXd solve_basis() {
             if (b[i] < -1e-12) at_zero.insert(i);
         if (at_zero.size() == before) break;
     }
-    return b.cwiseMax(0).cwiseMin(1);
+    for (double& value : b) value = std::clamp(value, 0.0, 1.0);  // what is left of -1e-12
+    return b;
 }
 
 [[noreturn]] void out_of_gamut(Eigen::Vector3d const& rec709, char const* allowed) {
@@ -138,11 +140,13 @@ SpectralFunction rgb_to_spectrum(Eigen::Vector3d const& rgb, RgbSpace const& spa
     constexpr double slack = 1e-6;  // rounding of a colour on the gamut's edge
     MatrixDouble const to_rec709 =
         rgb::rec709.from_xyz_matrix() * bradford_adaptation(space.white, rgb::rec709.white) * space.to_xyz_matrix();
-    Eigen::Vector3d const c = &space == &rgb::rec709 ? rgb : Eigen::Vector3d(to_rec709 * rgb);
+    Eigen::Vector3d const c = space.name == rgb::rec709.name ? rgb : Eigen::Vector3d(to_rec709 * rgb);
     if (c.minCoeff() < -slack) out_of_gamut(c, "components of at least 0");
     if (role == RgbRole::reflectance && c.maxCoeff() > 1 + slack)
         out_of_gamut(c, "components of a reflectance in 0 .. 1");
-    if (c == Eigen::Vector3d(1, 1, 1) && role == RgbRole::reflectance) return SpectralFunction::constant(1);
+    constexpr double rounding = 1e-12;  // of the matrices: the white of every space is the perfect reflector
+    if (role == RgbRole::reflectance && (c - Eigen::Vector3d::Ones()).cwiseAbs().maxCoeff() < rounding)
+        return SpectralFunction::constant(1);
     TabulatedShape table;
     for (double nm = visible_range.min_nm; nm <= visible_range.max_nm; ++nm) {
         double value = 0;
