@@ -16,7 +16,10 @@ bool is_step(SpectralFunction const& f) {
 }  // namespace
 
 Film::Film(int width, int height, Observer const& observer, WavelengthGrid const& grid, std::optional<Bands> bands)
-    : pixels_(width, height), observer_(observer), bands_(bands), exact_observer_(is_step(observer.ybar)) {
+    : pixels_(width, height),
+      observer_(observer),
+      bands_(bands),
+      exact_observer_(is_step(observer.xbar) || is_step(observer.ybar) || is_step(observer.zbar)) {
     if (bands_) band_sum_.assign(pixels_.pixel.size() * static_cast<std::size_t>(bands_->count), 0.0);
     for (int i = 0; i < grid.count; ++i) response_.push_back(response(grid.first_nm + i));
 }
