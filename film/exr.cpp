@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "film/exr.h"
 
-#include <OpenEXR/ImfAttribute.h>
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfChromaticitiesAttribute.h>
 #include <OpenEXR/ImfDoubleAttribute.h>
-#include <OpenEXR/ImfFloatAttribute.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
-#include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfIntAttribute.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfStandardAttributes.h>
+#include <OpenEXR/ImfStdIO.h>
 #include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfVecAttribute.h>
 #include <fmt/format.h>
@@ -19,6 +17,8 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
+#include <fstream>
 
 #include "base/atomic_file.h"
 #include "base/diagnostics.h"
@@ -26,6 +26,13 @@
 namespace iride {
 
 namespace {
+
+[[noreturn]] void fail(std::filesystem::path const& path, std::string const& message) {
+    Diagnostic diagnostic;
+    diagnostic.where.file = path.string();
+    diagnostic.message = "cannot be written: " + message;
+    throw InputError(std::move(diagnostic));
+}
 
 // A plane of floats waiting to be written under a channel name.
 struct Plane {
@@ -46,6 +53,20 @@ std::string band_channel(double centre_nm) {
 Imf::Chromaticities typed(RgbSpace const& s) {
     auto const v = [](Chromaticity const& c) { return Imath::V2f(static_cast<float>(c.x), static_cast<float>(c.y)); };
     return {v(s.red), v(s.green), v(s.blue), v(s.white)};
+}
+
+// Samples taken per pixel, the rejected ones included.
+int samples_per_pixel(Film const& film) {
+    std::uint64_t total = 0;
+    for (std::uint64_t r : film.rejected()) total += r;
+    for (int y = 0; y < film.height(); ++y)
+        for (int x = 0; x < film.width(); ++x) total += film.sample_count(x, y);
+    return static_cast<int>(std::llround(static_cast<double>(total) / film.width() / film.height()));
+}
+
+// Finite values stay finite.
+half to_half(float value) {
+    return half(std::isfinite(value) ? std::clamp(value, -float{HALF_MAX}, float{HALF_MAX}) : value);
 }
 
 template <class Value>
@@ -106,7 +127,7 @@ Imf::Header header_of(Film const& film, ExrSettings const& s, OutputSpace const&
     text("iride:seed", std::to_string(s.seed));  // 64 bits: no integer attribute holds them
     text("iride:observer", film.observer().name);
     header.insert("iride:exposure", Imf::DoubleAttribute(s.exposure));
-    header.insert("iride:spp", Imf::IntAttribute(static_cast<int>(film.sample_count(0, 0))));
+    header.insert("iride:spp", Imf::IntAttribute(samples_per_pixel(film)));
     auto const rejected = film.rejected();
     for (std::size_t i = 0; i < rejected.size(); ++i)
         text(fmt::format("iride:rejected.{}", rejection_names[i]).c_str(), std::to_string(rejected[i]));
@@ -135,19 +156,24 @@ void write_exr(Film const& film, ExrSettings const& settings, std::filesystem::p
     for (Plane& p : planes) {
         header.channels().insert(p.name, Imf::Channel(p.type));
         bool const is_half = p.type == Imf::HALF;
-        if (is_half) p.value_half.assign(p.value.begin(), p.value.end());
+        if (is_half) std::ranges::transform(p.value, std::back_inserter(p.value_half), to_half);
         char* const base =
             is_half ? reinterpret_cast<char*>(p.value_half.data()) : reinterpret_cast<char*>(p.value.data());
         std::size_t const size = is_half ? sizeof(half) : sizeof(float);
         buffer.insert(p.name, Imf::Slice(p.type, base, size, size * width));
     }
+    std::ofstream stream(file.temporary(), std::ios::binary);
     try {
-        Imf::OutputFile out(file.temporary().c_str(), header);
+        Imf::StdOFStream target(stream, file.temporary().c_str());
+        Imf::OutputFile out(target, header);
         out.setFrameBuffer(buffer);
         out.writePixels(film.height());
     } catch (std::exception const& e) {
-        throw InputError(Diagnostic{{path.string()}, "", fmt::format("cannot be written: {}", e.what())});
+        fail(path, e.what());
     }
+    // The library's destructor, which writes the last bytes, keeps silent about errors; the stream does not.
+    stream.close();
+    if (!stream) fail(path, "the disk took only a part of it");
     file.commit();
 }
 

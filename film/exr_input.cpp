@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Reading is wary: sizes are held against the file's own before OpenEXR allocates what a damaged header claims.
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfDoubleAttribute.h>
 #include <OpenEXR/ImfFrameBuffer.h>
@@ -6,10 +7,14 @@
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfTestFile.h>
 #include <OpenEXR/ImfVecAttribute.h>
+#include <OpenEXR/ImfVersion.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
+#include <fstream>
 #include <limits>
+#include <span>
 
 #include "base/diagnostics.h"
 #include "film/exr.h"
@@ -19,6 +24,46 @@ namespace iride {
 namespace {
 
 constexpr int largest_side = 1 << 16;  // pixels
+constexpr int largest_tile = 1 << 13;  // pixels, each way
+
+using Names = std::vector<std::string>;
+
+[[noreturn]] void fail(std::filesystem::path const& path, std::string message) {
+    Diagnostic diagnostic;
+    diagnostic.where.file = path.string();
+    diagnostic.message = std::move(message);
+    throw InputError(std::move(diagnostic));
+}
+
+std::uint32_t little_endian_word(std::istream& in) {
+    std::array<unsigned char, 4> b{};
+    in.read(reinterpret_cast<char*>(b.data()), b.size());
+    return b[0] | std::uint32_t{b[1]} << 8 | std::uint32_t{b[2]} << 16 | std::uint32_t{b[3]} << 24;
+}
+
+// A header is a row of attributes, each a name and a type, both ended by zero, a size and so many bytes; an empty name
+// ends it, and an empty header ends the headers of a file of several parts. Every attribute must fit into the file.
+void check_attribute_sizes(std::filesystem::path const& path) {
+    std::ifstream in(path, std::ios::binary);
+    std::uintmax_t const file_size = std::filesystem::file_size(path);
+    little_endian_word(in);  // the magic number, known to be right
+    bool const several_parts = little_endian_word(in) & Imf::MULTI_PART_FILE_FLAG;
+    for (bool header_is_empty = true;;) {
+        std::string name, type;
+        std::getline(in, name, '\0');
+        if (in && name.empty()) {
+            if (header_is_empty || !several_parts) return;
+            header_is_empty = true;
+            continue;
+        }
+        header_is_empty = false;
+        std::getline(in, type, '\0');
+        std::uint32_t const size = little_endian_word(in);
+        if (!in || size > file_size - static_cast<std::uintmax_t>(in.tellg()))
+            fail(path, "is truncated or damaged: its header does not fit into the file");
+        in.seekg(size, std::ios::cur);
+    }
+}
 
 // Every picture as floats, channel by channel.
 class Reader {
@@ -28,30 +73,35 @@ class Reader {
         origin_ = window.min;
         width_ = window.max.x - window.min.x + 1;
         height_ = window.max.y - window.min.y + 1;
-        if (width_ < 1 || height_ < 1 || width_ > largest_side || height_ > largest_side)
-            fail(fmt::format("has {} x {} pixels, allowed: 1 .. {} each", width_, height_, largest_side));
     }
 
     Imf::Header const& header() const { return file_.header(); }
-    bool has(std::string const& name) const { return header().channels().findChannel(name) != nullptr; }
+    bool has(std::span<std::string const> names) const {
+        return std::ranges::all_of(names,
+                                   [&](std::string const& n) { return header().channels().findChannel(n) != nullptr; });
+    }
 
-    Image<float> channel(std::string const& name) {
-        Image<float> image(width_, height_);
+    // All at once, row by row: memory grows only as far as the file proves to hold the picture.
+    std::vector<Image<float>> channels(Names const& names) {
+        std::vector<std::vector<float>> row(names.size(), std::vector<float>(static_cast<std::size_t>(width_)));
+        std::vector<Image<float>> images(names.size());
         Imf::FrameBuffer buffer;
-        buffer.insert(name, Imf::Slice::Make(Imf::FLOAT, image.pixel.data(), header().dataWindow(), sizeof(float),
-                                             sizeof(float) * static_cast<std::size_t>(width_)));
+        for (std::size_t c = 0; c < names.size(); ++c) {
+            char* const base = reinterpret_cast<char*>(row[c].data() - origin_.x);
+            constexpr std::size_t every_row_here = 0;
+            buffer.insert(names[c], Imf::Slice(Imf::FLOAT, base, sizeof(float), every_row_here));
+        }
         file_.setFrameBuffer(buffer);
-        file_.readPixels(origin_.y, origin_.y + height_ - 1);
-        return image;
+        for (int y = 0; y < height_; ++y) {
+            file_.readPixels(origin_.y + y);
+            for (std::size_t c = 0; c < names.size(); ++c)
+                images[c].pixel.insert(images[c].pixel.end(), row[c].begin(), row[c].end());
+        }
+        for (Image<float>& image : images) image.width = width_, image.height = height_;
+        return images;
     }
 
-    std::array<Image<float>, 3> triple(std::string const& a, std::string const& b, std::string const& c) {
-        return {channel(a), channel(b), channel(c)};
-    }
-
-    [[noreturn]] void fail(std::string const& message) const {
-        throw InputError(Diagnostic{{path_.string()}, "", message});
-    }
+    [[noreturn]] void refuse(std::string message) const { fail(path_, std::move(message)); }
 
   private:
     std::filesystem::path path_;
@@ -60,7 +110,7 @@ class Reader {
     int width_ = 0, height_ = 0;
 };
 
-Image<Xyz> combined(std::array<Image<float>, 3> const& c, MatrixDouble const& to_xyz_matrix) {
+Image<Xyz> combined(std::span<Image<float> const, 3> c, MatrixDouble const& to_xyz_matrix) {
     Image<Xyz> image(c[0].width, c[0].height);
     for (std::size_t i = 0; i < image.pixel.size(); ++i)
         image.pixel[i] = to_xyz(to_xyz_matrix * VectorDouble(c[0].pixel[i], c[1].pixel[i], c[2].pixel[i]));
@@ -68,17 +118,18 @@ Image<Xyz> combined(std::array<Image<float>, 3> const& c, MatrixDouble const& to
 }
 
 // XYZ of the file's RGB, by its own primaries; adapted back to the scene's white if it says which that was.
-MatrixDouble rgb_to_xyz(Imf::Header const& header) {
+MatrixDouble rgb_to_xyz(Reader const& in) {
     RgbSpace space = rgb::rec709;
-    if (Imf::hasChromaticities(header)) {
-        Imf::Chromaticities const& c = Imf::chromaticities(header);
+    if (Imf::hasChromaticities(in.header())) {
+        Imf::Chromaticities const& c = Imf::chromaticities(in.header());
         auto const v = [](Imath::V2f const& p) { return Chromaticity{p.x, p.y}; };
         space = {"of the file", v(c.red), v(c.green), v(c.blue), v(c.white), ""};
     }
-    MatrixDouble const plain = space.to_xyz_matrix();
-    auto const* const white = header.findTypedAttribute<Imf::V2fAttribute>("sceneWhite");
-    if (!white) return plain;
-    return bradford_adaptation(space.white, {white->value().x, white->value().y}) * plain;
+    MatrixDouble matrix = space.to_xyz_matrix();
+    if (auto const* const white = in.header().findTypedAttribute<Imf::V2fAttribute>("sceneWhite"))
+        matrix = bradford_adaptation(space.white, {white->value().x, white->value().y}) * matrix;
+    if (!matrix.allFinite()) in.refuse("its chromaticities or its sceneWhite span no colour space");
+    return matrix;
 }
 
 // The wavelength of "S0.550,000000nm", or nothing.
@@ -91,44 +142,60 @@ std::optional<double> band_centre(std::string name) {
     return error == std::errc() && end == name.data() + name.size() ? std::optional(nm) : std::nullopt;
 }
 
-XyzPicture read(std::filesystem::path const& path) {
-    Reader in(path);
-    XyzPicture picture;
-    if (in.has("X") && in.has("Y") && in.has("Z"))
-        picture.xyz = combined(in.triple("X", "Y", "Z"), MatrixDouble::Identity());
-    else if (in.has("R") && in.has("G") && in.has("B"))
-        picture.xyz = combined(in.triple("R", "G", "B"), rgb_to_xyz(in.header()));
-    else
-        in.fail("has neither channels R G B nor X Y Z");
-    if (in.has("variance.X") && in.has("variance.Y") && in.has("variance.Z"))
-        picture.variance = combined(in.triple("variance.X", "variance.Y", "variance.Z"), MatrixDouble::Identity());
-    if (auto const* e = in.header().findTypedAttribute<Imf::DoubleAttribute>("iride:exposure"))
-        picture.exposure = e->value();
+std::vector<std::pair<double, std::string>> band_channels(Imf::ChannelList const& channels) {
     std::vector<std::pair<double, std::string>> bands;
-    for (auto c = in.header().channels().begin(); c != in.header().channels().end(); ++c)
+    for (auto c = channels.begin(); c != channels.end(); ++c)
         if (auto const nm = band_centre(c.name())) bands.emplace_back(*nm, c.name());
     std::ranges::sort(bands);
-    for (auto const& [nm, name] : bands) picture.bands.emplace_back(nm, in.channel(name));
+    return bands;
+}
+
+XyzPicture read(std::filesystem::path const& path) {
+    Reader in(path);
+    static Names const xyz{"X", "Y", "Z"}, rgb{"R", "G", "B"}, variance{"variance.X", "variance.Y", "variance.Z"};
+    bool const is_xyz = in.has(xyz), has_variance = in.has(variance);
+    if (!is_xyz && !in.has(rgb)) in.refuse("has neither channels R G B nor X Y Z");
+    Names wanted = is_xyz ? xyz : rgb;
+    if (has_variance) wanted.insert(wanted.end(), variance.begin(), variance.end());
+    auto const bands = band_channels(in.header().channels());
+    for (auto const& band : bands) wanted.push_back(band.second);
+
+    MatrixDouble const identity = MatrixDouble::Identity();
+    MatrixDouble const matrix = is_xyz ? identity : rgb_to_xyz(in);
+    XyzPicture picture;
+    if (auto const* e = in.header().findTypedAttribute<Imf::DoubleAttribute>("iride:exposure"))
+        picture.exposure = e->value();
+    if (!(picture.exposure > 0 && picture.exposure < std::numeric_limits<double>::infinity()))
+        in.refuse(fmt::format("its exposure is {}, allowed: above 0", picture.exposure));
+    std::vector<Image<float>> planes = in.channels(wanted);
+    std::span<Image<float> const> const all(planes);
+    picture.xyz = combined(all.first<3>(), matrix);
+    if (has_variance) picture.variance = combined(all.subspan<3, 3>(), identity);
+    std::size_t const first_band = planes.size() - bands.size();
+    for (std::size_t b = 0; b < bands.size(); ++b)
+        picture.bands.emplace_back(bands[b].first, std::move(planes[first_band + b]));
     return picture;
 }
 
 }  // namespace
 
 XyzPicture read_exr_as_xyz(std::filesystem::path const& path) {
-    auto const fail = [&](std::string const& message) { throw InputError(Diagnostic{{path.string()}, "", message}); };
     std::error_code error;
-    if (!std::filesystem::is_regular_file(path, error)) fail("no such file");
+    if (!std::filesystem::exists(path, error)) fail(path, "no such file");
+    if (!std::filesystem::is_regular_file(path, error)) fail(path, "is not a regular file");
     bool tiled = false, deep = false, multipart = false;
-    if (!Imf::isOpenExrFile(path.c_str(), tiled, deep, multipart)) fail("is not an OpenEXR file");
-    if (deep) fail("is a deep OpenEXR file; a flat one is wanted");
+    if (!Imf::isOpenExrFile(path.c_str(), tiled, deep, multipart)) fail(path, "is not an OpenEXR file");
+    if (deep) fail(path, "is a deep OpenEXR file, allowed: flat ones");
+    check_attribute_sizes(path);
+    Imf::Header::setMaxImageSize(largest_side, largest_side);
+    Imf::Header::setMaxTileSize(largest_tile, largest_tile);
     try {
         return read(path);
     } catch (InputError const&) {
         throw;
     } catch (std::exception const& e) {
-        fail(fmt::format("truncated or damaged: {}", e.what()));
+        fail(path, fmt::format("is truncated, damaged or of a kind that is not read: {}", e.what()));
     }
-    return {};
 }
 
 }  // namespace iride

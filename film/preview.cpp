@@ -14,7 +14,6 @@ namespace iride {
 
 void write_preview(Film const& film, Chromaticity const& scene_white, double exposure, DisplayPipeline const& display,
                    std::filesystem::path const& path) {
-    AtomicFile file(path);
     auto image = to_image(film, output_space("ACEScg", scene_white), exposure);
     display.apply({image.pixel.front().data(), image.pixel.size() * 3});
     std::vector<std::uint8_t> bytes;
@@ -25,8 +24,13 @@ void write_preview(Film const& film, Chromaticity const& scene_white, double exp
             bytes.push_back(static_cast<std::uint8_t>(std::lround(255 * std::clamp(c, 0.0f, 1.0f))));
     }
     auto const fail = [&](std::string const& why) {
-        throw InputError(Diagnostic{{path.string()}, "", "cannot be written: " + why});
+        Diagnostic diagnostic;
+        diagnostic.where.file = path.string();
+        diagnostic.message = "cannot be written: " + why;
+        throw InputError(std::move(diagnostic));
     };
+    if (path.extension() != ".png") fail("a preview's name ends in .png");
+    AtomicFile file(path);
     auto const output = OIIO::ImageOutput::create(path.string());
     if (!output) fail(OIIO::geterror());
     OIIO::ImageSpec const spec(image.width, image.height, 3, OIIO::TypeDesc::UINT8);
