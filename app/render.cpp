@@ -38,9 +38,7 @@ extern "C" void on_interrupt(int) {
     if (interrupted.exchange(true)) std::_Exit(exit_interrupted);
 }
 
-[[noreturn]] void fail(std::string const& key, std::string const& message) {
-    throw InputError(Diagnostic{{}, key, message});
-}
+[[noreturn]] void fail(std::string const& key, std::string const& message) { throw InputError({}, key, message); }
 
 void apply_size(Scene& scene, std::string const& size) {
     if (size.empty()) return;

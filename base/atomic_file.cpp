@@ -17,10 +17,7 @@ namespace iride {
 namespace {
 
 [[noreturn]] void fail(std::filesystem::path const& target, std::string const& message) {
-    Diagnostic diagnostic;
-    diagnostic.where.file = target.string();
-    diagnostic.message = "cannot be written: " + message;
-    throw InputError(std::move(diagnostic));
+    throw InputError({target.string()}, "", "cannot be written: " + message);
 }
 
 std::filesystem::path folder_of(std::filesystem::path const& target) {

@@ -42,6 +42,8 @@ std::string Diagnostic::text() const {
 
 InputError::InputError(std::vector<Diagnostic> diagnostics)
     : std::runtime_error(joined(diagnostics)), diagnostics_(std::move(diagnostics)) {}
+InputError::InputError(SourceLocation where, std::string key_path, std::string message)
+    : InputError(std::vector{Diagnostic{std::move(where), std::move(key_path), std::move(message)}}) {}
 
 std::string nearest_name(std::string_view name, std::vector<std::string> const& candidates) {
     constexpr std::size_t longest_name = 64;  // longer ones are no slip of the pen, and the table grows as the product

@@ -28,7 +28,7 @@ struct Diagnostic {
 class InputError : public std::runtime_error {
   public:
     explicit InputError(std::vector<Diagnostic> diagnostics);
-    explicit InputError(Diagnostic diagnostic) : InputError(std::vector{std::move(diagnostic)}) {}
+    InputError(SourceLocation where, std::string key_path, std::string message);
     std::vector<Diagnostic> const& diagnostics() const { return diagnostics_; }
 
   private:

@@ -97,7 +97,7 @@ class TreeBuilder : public nlohmann::json_sax<Library> {
     }
 
     [[noreturn]] void fail(Position where, std::string const& message) const {
-        throw InputError(Diagnostic{{file_, where.line, where.column}, "", message});
+        throw InputError({file_, where.line, where.column}, "", message);
     }
 
   private:
@@ -201,7 +201,7 @@ JsonValue parse_json(std::string_view text, std::string const& file_name) {
 }
 
 JsonValue read_json(std::filesystem::path const& path) {
-    auto const fail = [&](std::string const& message) { throw InputError(Diagnostic{{path.string()}, "", message}); };
+    auto const fail = [&](std::string const& message) { throw InputError({path.string()}, "", message); };
     std::error_code error;
     auto const status = std::filesystem::status(path, error);
     if (!std::filesystem::exists(status)) fail("no such file");

@@ -23,7 +23,7 @@ std::filesystem::path chosen_config(std::filesystem::path const& config) {
 }
 
 [[noreturn]] void fail(std::filesystem::path const& config, std::string const& key, std::string const& message) {
-    throw InputError(Diagnostic{{config.string()}, key, message});
+    throw InputError({config.string()}, key, message);
 }
 
 ocio::ConstConfigRcPtr load(std::filesystem::path const& path) {

@@ -38,8 +38,7 @@ Observer const& observer(std::string const& name) {
     static std::map<std::string, Observer> loaded;
     static std::mutex guard;
     if (std::ranges::find(known, name) == known.end())
-        throw InputError(
-            Diagnostic{{}, "observer", fmt::format("unknown observer '{}'{}", name, suggestion(name, known))});
+        throw InputError({}, "observer", fmt::format("unknown observer '{}'{}", name, suggestion(name, known)));
     std::lock_guard const lock(guard);
     auto const found = loaded.find(name);
     return found != loaded.end() ? found->second : loaded.emplace(name, load(name)).first->second;

@@ -57,7 +57,7 @@ Chromaticity named_white(std::string const& name) {
     }
     std::vector<std::string> names;
     for (auto const& entry : published) names.push_back(entry.first);
-    throw InputError(Diagnostic{{}, "", fmt::format("unknown white '{}'{}", name, suggestion(name, names))});
+    throw InputError({}, "", fmt::format("unknown white '{}'{}", name, suggestion(name, names)));
 }
 
 MatrixDouble bradford_adaptation(Chromaticity const& from, Chromaticity const& to) {
@@ -75,8 +75,7 @@ OutputSpace output_space(std::string const& name, Chromaticity const& scene_whit
         if (name == space.name || (name == "linear-sRGB" && space.name == rgb::rec709.name))
             return {name, space.from_xyz_matrix() * bradford_adaptation(scene_white, space.white), &space};
     }
-    throw InputError(
-        Diagnostic{{}, "colourspace", fmt::format("unknown colour space '{}'{}", name, suggestion(name, names))});
+    throw InputError({}, "colourspace", fmt::format("unknown colour space '{}'{}", name, suggestion(name, names)));
 }
 
 }  // namespace iride

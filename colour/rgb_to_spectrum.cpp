@@ -106,10 +106,9 @@ Eigen::VectorXd solve_basis() {
 }
 
 [[noreturn]] void out_of_gamut(Eigen::Vector3d const& rec709, char const* allowed) {
-    throw InputError(Diagnostic{{},
-                                "",
-                                fmt::format("in linear Rec.709 this colour is ({:.4g}, {:.4g}, {:.4g}); allowed: {}",
-                                            rec709[0], rec709[1], rec709[2], allowed)});
+    throw InputError({}, "",
+                     fmt::format("in linear Rec.709 this colour is ({:.4g}, {:.4g}, {:.4g}); allowed: {}", rec709[0],
+                                 rec709[1], rec709[2], allowed));
 }
 
 }  // namespace

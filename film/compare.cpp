@@ -12,10 +12,9 @@ namespace iride {
 
 Comparison compare(XyzPicture const& a, XyzPicture const& b) {
     if (a.xyz.width != b.xyz.width || a.xyz.height != b.xyz.height)
-        throw InputError(Diagnostic{{},
-                                    "",
-                                    fmt::format("the pictures differ in size: {} x {} and {} x {}", a.xyz.width,
-                                                a.xyz.height, b.xyz.width, b.xyz.height)});
+        throw InputError({}, "",
+                         fmt::format("the pictures differ in size: {} x {} and {} x {}", a.xyz.width, a.xyz.height,
+                                     b.xyz.width, b.xyz.height));
     Comparison result{a.xyz.width, a.xyz.height, 0, 0, 0, 0, 0};
     Xyz const white = to_xyz(named_white("D65"), 1);
     constexpr double floor = 0.01;  // keeps black pixels from ruling the mean

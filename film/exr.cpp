@@ -28,10 +28,7 @@ namespace iride {
 namespace {
 
 [[noreturn]] void fail(std::filesystem::path const& path, std::string const& message) {
-    Diagnostic diagnostic;
-    diagnostic.where.file = path.string();
-    diagnostic.message = "cannot be written: " + message;
-    throw InputError(std::move(diagnostic));
+    throw InputError({path.string()}, "", "cannot be written: " + message);
 }
 
 // A plane of floats waiting to be written under a channel name.

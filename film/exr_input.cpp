@@ -29,10 +29,7 @@ constexpr int largest_tile = 1 << 13;  // pixels, each way
 using Names = std::vector<std::string>;
 
 [[noreturn]] void fail(std::filesystem::path const& path, std::string message) {
-    Diagnostic diagnostic;
-    diagnostic.where.file = path.string();
-    diagnostic.message = std::move(message);
-    throw InputError(std::move(diagnostic));
+    throw InputError({path.string()}, "", std::move(message));
 }
 
 std::uint32_t little_endian_word(std::istream& in) {

@@ -24,10 +24,7 @@ void write_preview(Film const& film, Chromaticity const& scene_white, double exp
             bytes.push_back(static_cast<std::uint8_t>(std::lround(255 * std::clamp(c, 0.0f, 1.0f))));
     }
     auto const fail = [&](std::string const& why) {
-        Diagnostic diagnostic;
-        diagnostic.where.file = path.string();
-        diagnostic.message = "cannot be written: " + why;
-        throw InputError(std::move(diagnostic));
+        throw InputError({path.string()}, "", "cannot be written: " + why);
     };
     if (path.extension() != ".png") fail("a preview's name ends in .png");
     AtomicFile file(path);

@@ -26,8 +26,7 @@ std::unique_ptr<Integrator> make_integrator(std::string const& name, RenderPlan 
         if (name == e.name) return e.make(plan);
         names.emplace_back(e.name);
     }
-    throw InputError(
-        Diagnostic{{}, "integrator", fmt::format("unknown integrator '{}'{}", name, suggestion(name, names))});
+    throw InputError({}, "integrator", fmt::format("unknown integrator '{}'{}", name, suggestion(name, names)));
 }
 
 }  // namespace iride

@@ -18,7 +18,7 @@ Vector metres(SceneBuilder const& b, VectorDouble const& v) { return (v * b.leng
 // A lat-long picture in linear Rec.709. Throws InputError.
 EnvironmentPicture read_picture(std::filesystem::path const& path, double scale, WavelengthGrid const& grid) {
     auto const fail = [&](std::string const& message) -> InputError {
-        return InputError(Diagnostic{{path.string()}, "", message});
+        return InputError({path.string()}, "", message);
     };
     if (!std::filesystem::is_regular_file(path)) throw fail("no such file");
     auto const input = OIIO::ImageInput::open(path.string());

@@ -223,10 +223,9 @@ std::filesystem::path find_scene(std::string const& file_or_name) {
     }
     std::vector<std::string> names;
     for (ShippedScene const& s : shipped_scenes()) names.push_back(s.name);
-    throw InputError(Diagnostic{
-        {},
-        "",
-        fmt::format("'{}' is neither a file nor a shipped scene{}", file_or_name, suggestion(file_or_name, names))});
+    throw InputError(
+        {}, "",
+        fmt::format("'{}' is neither a file nor a shipped scene{}", file_or_name, suggestion(file_or_name, names)));
 }
 
 }  // namespace iride

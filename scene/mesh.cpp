@@ -17,7 +17,7 @@ namespace iride {
 namespace {
 
 [[noreturn]] void fail_file(std::filesystem::path const& path, std::string message) {
-    throw InputError(Diagnostic{{path.string()}, "", std::move(message)});
+    throw InputError({path.string()}, "", std::move(message));
 }
 
 std::string read_bytes(std::filesystem::path const& path) {
@@ -81,7 +81,7 @@ std::optional<std::int64_t> to_integer(std::string_view text) {
 }
 
 void fail_at(std::string const& file, Token const& token, std::string message) {
-    throw InputError(Diagnostic{{file, token.line, token.column}, "", std::move(message)});
+    throw InputError({file, token.line, token.column}, "", std::move(message));
 }
 
 std::optional<Vector> unit_vector(double x, double y, double z) {

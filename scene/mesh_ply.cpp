@@ -224,7 +224,7 @@ class BinaryBody {
             fail(fmt::format("{} bytes after the last element", bytes_.size() - at_));
     }
     [[noreturn]] void fail(std::string message) const {
-        throw InputError(Diagnostic{{file_}, "", fmt::format("byte {}: {}", last_, message)});
+        throw InputError({file_}, "", fmt::format("byte {}: {}", last_, message));
     }
 
   private:

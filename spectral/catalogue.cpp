@@ -17,7 +17,7 @@ struct Entry {
     std::string file, column;  // column "nk": n and k
 };
 
-[[noreturn]] void fail(std::string const& message) { throw InputError(Diagnostic{{}, "", message}); }
+[[noreturn]] void fail(std::string const& message) { throw InputError({}, "", message); }
 
 // catalogue.csv, read once.
 std::map<std::string, Entry> const& catalogue() {
@@ -74,8 +74,8 @@ std::string unknown(std::string const& name, SpectralQuantity quantity) {
 TabulatedShape table_of(SpectrumFile const& file, std::string const& column) {
     auto const found = file.column.find(column);
     if (found == file.column.end())
-        throw InputError(Diagnostic{
-            {file.path.string()}, "", fmt::format("no column '{}'{}", column, suggestion(column, file.column_order))});
+        throw InputError({file.path.string()}, "",
+                         fmt::format("no column '{}'{}", column, suggestion(column, file.column_order)));
     return {file.wavelength_nm, found->second};
 }
 
@@ -138,10 +138,9 @@ SpectralFunction load_spectrum(std::string const& name, SpectralQuantity quantit
     SpectrumFile const file = read_spectrum_file(path);
     if (!file.formula.empty()) return SpectralFunction(file.formula.front(), outside, name);
     if (column.empty() && file.column_order.size() != 1)
-        throw InputError(Diagnostic{{path.string()},
-                                    "",
-                                    fmt::format("holds {} columns: choose one as '{}:{}'", file.column_order.size(),
-                                                name, file.column_order.front())});
+        throw InputError({path.string()}, "",
+                         fmt::format("holds {} columns: choose one as '{}:{}'", file.column_order.size(), name,
+                                     file.column_order.front()));
     return SpectralFunction(table_of(file, column.empty() ? file.column_order.front() : column), outside, name);
 }
 

@@ -22,7 +22,7 @@ constexpr std::uintmax_t largest_file = 64ull << 20;  // bytes
 constexpr double nm_per_micrometre = 1000;
 
 [[noreturn]] void fail(std::filesystem::path const& path, int line, std::string const& message) {
-    throw InputError(Diagnostic{{path.string(), line, line > 0 ? 1 : 0}, "", message});
+    throw InputError({path.string(), line, line > 0 ? 1 : 0}, "", message);
 }
 
 std::string trimmed(std::string const& s) {
