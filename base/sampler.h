@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The random numbers of one camera path: dimension after dimension, each a function of (seed, pixel, sample,
-// dimension). Dimensions are handed out in pairs; each pair is an independently scrambled and shuffled (0,2)-sequence
-// over the samples of its pixel ("padding"), or, with SamplerKind::independent, plain hashes.
+// dimension). They come in blocks of four pairs, made together in one register: a block for the camera, one for each
+// vertex of the path. Each pair is an independently scrambled and shuffled (0,2)-sequence over the samples of its pixel
+// ("padding"), or, with SamplerKind::independent, plain hashes.
 #pragma once
 
 #include <cstdint>
@@ -20,30 +21,60 @@ enum class SamplerKind { sobol, independent };
 class Sampler {
   public:
     Sampler(SamplerKind kind, std::uint64_t seed, std::uint32_t pixel, std::uint32_t sample)
-        : key_(hash_words(seed, pixel)), sample_(sample), kind_(kind) {}
-
-    float next() { return next2().x; }
-
-    Sample2 next2() {
-        if (kind_ == SamplerKind::independent) {
-            std::uint64_t const bits = hash_words(key_, sample_, dimension_++);
-            return {to_unit_float(static_cast<std::uint32_t>(bits >> 32)),
-                    to_unit_float(static_cast<std::uint32_t>(bits))};
-        }
-        SobolPoint const p = scrambled_sobol(sample_, mix_bits(key_ + 0x9e3779b97f4a7c15ull * ++dimension_));
-        return {to_unit_float(p.x), to_unit_float(p.y)};
+        : key_(hash_words(seed, pixel)), sample_(sample), kind_(kind) {
+        make_block(0);
     }
 
-    // Go to the first dimension of path vertex `vertex`, whatever the vertices before it have used: the same decision
-    // of two paths then reads the same dimension.
-    void begin_vertex(std::uint32_t vertex) { dimension_ = camera_dimensions + vertex * vertex_dimensions; }
+    // The next pair, or the first number of it.
+    Sample2 next2() {
+        if (used_ == sobol_points) make_block(block_ + 1);
+        int const i = used_++;
+        return {number_[i], number_[i + sobol_points]};
+    }
+    float next() { return next2().x; }
+
+    // Go to the block of path vertex `vertex`, whatever has been used of those before: the same decision of two paths
+    // then reads the same dimension. What does not fit into a block goes to one that no vertex begins with.
+    void begin_vertex(std::uint32_t vertex) { make_block(2 * vertex + 2); }
 
   private:
-    static constexpr std::uint32_t camera_dimensions = 4, vertex_dimensions = 6;  // pairs
+    using Numbers = float __attribute__((vector_size(sizeof(SobolWords))));
 
+    // Words [first, first + 8) of a hash sequence: one round of multiply and shift, on top of a fully mixed base.
+    static SobolWords spread(std::uint32_t base, std::uint32_t first) {
+        SobolWords x = (SobolWords{0, 1, 2, 3, 4, 5, 6, 7} + first) * 0x9e3779b9u + base;
+        x ^= x >> 16;
+        x *= 0x21f0aaadu;
+        return x ^ (x >> 15);
+    }
+
+    void make_block(std::uint32_t block) {
+        block_ = block;
+        used_ = 0;
+        bool const stratified = kind_ == SamplerKind::sobol;
+        std::uint64_t const base =
+            stratified ? mix_bits(key_ + 0x9e3779b97f4a7c15ull * (block + 1ull)) : hash_words(key_, sample_, block);
+        auto const low = static_cast<std::uint32_t>(base), high = static_cast<std::uint32_t>(base >> 32);
+        SobolWords const seeds = spread(low, 0);
+        SobolWords words;
+        if (stratified) {
+            SobolWords const once = spread(high, 8);
+            constexpr SobolWords twice{0, 1, 2, 3, 0, 1, 2, 3};
+            words = scrambled_sobol(sample_, __builtin_shuffle(once, twice), seeds);
+        } else {
+            words = seeds ^ spread(high, 8);
+            words *= 0x735a2d97u;
+            words ^= words >> 15;
+        }
+        // The upper 24 bits: every value is exact and 1 is never reached.
+        using Signed = std::int32_t __attribute__((vector_size(sizeof(SobolWords))));
+        number_ = __builtin_convertvector(reinterpret_cast<Signed>(words >> 8), Numbers) * 0x1p-24f;
+    }
+
+    Numbers number_;  // x of the block's four pairs, then y
     std::uint64_t key_;
-    std::uint32_t sample_;
-    std::uint32_t dimension_ = 0;
+    std::uint32_t sample_, block_ = 0;
+    int used_ = 0;
     SamplerKind kind_;
 };
 

@@ -30,10 +30,9 @@ class SphericalRectangle {
 
   private:
     Rectangle const& rectangle_;
-    Vector z_;
-    float x0_, x1_, y0_, y1_, z0_;
-    float b0_, b1_, solid_angle_;
-    std::complex<float> turn_;  // e^(i k), k = 2 pi - g2 - g3
+    float x0_, x1_, y0_, y1_, z0_, z_sign_;  // z_sign: of the frame's z against the rectangle's normal
+    float b0_, rest0_, b1_, solid_angle_;    // rest0 = 1 - b0^2
+    std::complex<float> turn_;               // e^(i k), k = 2 pi - g2 - g3
 };
 
 // Solid angle of a triangle with unit vectors a, b, c as corners: 2 atan2(|a . b x c|, 1 + ab + bc + ca), exact also

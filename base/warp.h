@@ -6,6 +6,7 @@
 
 #include "base/quantity.h"
 #include "base/sampler.h"
+#include "base/trigonometry.h"
 #include "base/vector.h"
 
 namespace iride {
@@ -15,9 +16,8 @@ inline Vector2 to_disc(Sample2 u) {
     float const x = 2 * u.x - 1, y = 2 * u.y - 1;
     if (x == 0 && y == 0) return {0, 0};
     bool const wide = std::abs(x) > std::abs(y);
-    float const r = wide ? x : y;
-    float const phi = wide ? pi / 4 * (y / x) : pi / 2 - pi / 4 * (x / y);
-    return {r * std::cos(phi), r * std::sin(phi)};
+    auto const [sine, cosine] = sine_cosine_of_octant(pi / 4 * (wide ? y / x : x / y));
+    return wide ? Vector2(x * cosine, x * sine) : Vector2(y * sine, y * cosine);
 }
 
 // Cosine-weighted on the hemisphere z >= 0: a disc lifted up. Density cos / pi.
@@ -31,16 +31,18 @@ inline PerSteradian cosine_hemisphere_density(float cosine) {
 
 // Uniform on the whole sphere. Density 1 / (4 pi).
 inline Direction to_sphere(Sample2 u) {
-    float const z = 1 - 2 * u.x, r = std::sqrt(std::max(0.0f, 1 - z * z)), phi = 2 * pi * u.y;
-    return {r * std::cos(phi), r * std::sin(phi), z};
+    float const z = 1 - 2 * u.x, r = std::sqrt(std::max(0.0f, 1 - z * z));
+    auto const [sine, cosine] = sine_cosine_of_turns(u.y);
+    return {r * cosine, r * sine, z};
 }
 inline constexpr PerSteradian uniform_sphere_density{inverse_pi / 4};
 
 // Uniform in the cone of directions about +z with 1 - cos(half angle) = height. Density 1 / (2 pi height).
 inline Direction to_cone(Sample2 u, float height) {
     float const below = u.x * height;  // 1 - cos(theta): exact for small cones, where cos rounds to 1
-    float const sine = std::sqrt(std::max(0.0f, below * (2 - below))), phi = 2 * pi * u.y;
-    return {sine * std::cos(phi), sine * std::sin(phi), 1 - below};
+    float const r = std::sqrt(std::max(0.0f, below * (2 - below)));
+    auto const [sine, cosine] = sine_cosine_of_turns(u.y);
+    return {r * cosine, r * sine, 1 - below};
 }
 inline PerSteradian cone_density(float height) { return PerSteradian(1 / (2 * pi * height)); }
 

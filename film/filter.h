@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/sampler.h"
+#include "base/trigonometry.h"
 
 namespace iride {
 
@@ -21,8 +22,9 @@ inline float sample_triangle(float u, float radius) {
 // radius is cut at 3 standard deviations by drawing it from the cut distribution.
 inline Sample2 sample_gaussian(Sample2 u, float radius) {
     constexpr float inside = 0.98889100f;  // 1 - exp(-9/2)
-    float const r = radius / 3 * std::sqrt(-2 * std::log1p(-u.x * inside)), phi = 6.2831853f * u.y;
-    return {r * std::cos(phi), r * std::sin(phi)};
+    float const r = radius / 3 * std::sqrt(-2 * std::log1p(-u.x * inside));
+    auto const [sine, cosine] = sine_cosine_of_turns(u.y);
+    return {r * cosine, r * sine};
 }
 
 }  // namespace iride

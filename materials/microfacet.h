@@ -33,10 +33,10 @@ struct Ggx {
     // cap, sample the cap uniformly, and stretch back. [Dupuy 2023]
     Direction visible_normal(Direction const& w, Sample2 u) const {
         Direction const stretched = Vector(alpha * w.x(), alpha * w.y(), w.z()).normalized();
-        float const phi = 2 * pi * u.x;
         float const z = (1 - u.y) * (1 + stretched.z()) - stretched.z();
         float const r = std::sqrt(std::clamp(1 - z * z, 0.0f, 1.0f));
-        Vector const h = Vector(r * std::cos(phi), r * std::sin(phi), z) + stretched;
+        auto const [sine, cosine] = sine_cosine_of_turns(u.x);
+        Vector const h = Vector(r * cosine, r * sine, z) + stretched;
         return Vector(alpha * h.x(), alpha * h.y(), std::max(h.z(), 0.0f)).normalized();
     }
 
