@@ -24,31 +24,29 @@ Film::Film(int width, int height, Observer const& observer, WavelengthGrid const
     for (int i = 0; i < grid.count; ++i) response_.push_back(response(grid.first_nm + i));
 }
 
-std::array<float, 4> Film::response(double nm) const {
+Film::Response Film::response(double nm) const {
     Xyz const c = observer_.at(nm);
     double const scale = 1 / observer_.ybar_integral;
-    return {static_cast<float>(c.X * scale), static_cast<float>(c.Y * scale), static_cast<float>(c.Z * scale), 0};
+    return Response{static_cast<float>(c.X * scale), static_cast<float>(c.Y * scale), static_cast<float>(c.Z * scale),
+                    0};
 }
 
 void Film::add(int x, int y, Wavelengths const& wavelengths, Radiance const& radiance) {
     Pixel& pixel = pixels_.at(x, y);
     auto const power = radiance / wavelengths.density;  // L_i / p_i
-    std::array<double, 3> xyz{};
+    Response total{};
     for (int i = 0; i < lane_count; ++i) {
-        std::array<float, 4> r;
         if (exact_observer_) {
-            r = response(static_cast<double>(wavelengths.nm[i]));
+            total += response(static_cast<double>(wavelengths.nm[i])) * power[i];
         } else {
-            auto const& low = response_[static_cast<std::size_t>(wavelengths.cell[i])];
-            auto const& high = response_[static_cast<std::size_t>(wavelengths.cell[i]) + 1];
-            for (std::size_t c = 0; c < 3; ++c) r[c] = low[c] + wavelengths.fraction[i] * (high[c] - low[c]);
+            Response const* const cell = response_.data() + wavelengths.cell[i];
+            total += (cell[0] + wavelengths.fraction[i] * (cell[1] - cell[0])) * power[i];
         }
-        for (std::size_t c = 0; c < 3; ++c) xyz[c] += static_cast<double>(r[c] * power[i]);
     }
     for (std::size_t c = 0; c < 3; ++c) {
-        xyz[c] /= lane_count;
-        pixel.sum[c] += xyz[c];
-        pixel.sum_of_squares[c] += xyz[c] * xyz[c];
+        double const value = static_cast<double>(total[c]) / lane_count;
+        pixel.sum[c] += value;
+        pixel.sum_of_squares[c] += value * value;
     }
     ++pixel.count;
     if (bands_) add_to_bands(x, y, wavelengths, power);

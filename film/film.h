@@ -65,14 +65,16 @@ class Film {
         std::array<std::uint32_t, rejection_count> rejected{};
     };
 
-    std::array<float, 4> response(double nm) const;
+    using Response = float __attribute__((vector_size(4 * sizeof(float))));  // to X, Y, Z; the 4th is 0
+
+    Response response(double nm) const;
     void add_to_bands(int x, int y, Wavelengths const& wavelengths,
                       Sampled<dim::spectral_radiance / dim::per_nanometre> power);
     std::size_t band_offset(int x, int y) const;
 
     Image<Pixel> pixels_;
-    std::vector<double> band_sum_;                // [height][width][band]
-    std::vector<std::array<float, 4>> response_;  // [grid.count] xbar, ybar, zbar over the integral of ybar; 4th unused
+    std::vector<double> band_sum_;    // [height][width][band]
+    std::vector<Response> response_;  // [grid.count] xbar, ybar, zbar over the integral of ybar
     Observer const& observer_;
     std::optional<Bands> bands_;
     bool exact_observer_;  // an observer of steps (bands of a sensor) is not linear between whole nanometres

@@ -32,15 +32,29 @@ class Path final : public Integrator {
             if (bounce >= max_bounces_) return {L, max_bounces_ < longest_path};
 
             sampler.begin_vertex(static_cast<std::uint32_t>(bounce));
+            VertexNumbers const u(sampler);
             Interaction const here(scene, *hit, -ray.direction, wavelengths);
+            // The light sample and the next direction are both drawn before anything is traced: each is a long chain of
+            // dependent arithmetic, and the processor works on the two side by side.
+            std::optional<Unshadowed> direct;
             if (light_sampling_ && here.bsdf.has_density())
-                L += from_light_sample(scene, *hit, here, wavelengths, state, sampler, statistics);
-            if (!scatter(*hit, here, sampler, state, arrival, ray)) return {L};
-            if (bounce >= roulette_from && !survives<Dispersive>(state, sampler.next())) return {L};
+                direct = from_light_sample(scene, *hit, here, wavelengths, state, u);
+            bool const scattered = scatter(*hit, here, u, state, arrival, ray);
+            if (direct && !scene.accelerator->occluded(direct->shadow_ray, statistics)) L += direct->radiance;
+            if (!scattered) return {L};
+            if (bounce >= roulette_from && !survives<Dispersive>(state, u.roulette.x)) return {L};
         }
     }
 
   private:
+    // The decisions at a vertex, a block of the sampler.
+    struct VertexNumbers {
+        explicit VertexNumbers(Sampler& s)
+            : choices(s.next2()), light(s.next2()), direction(s.next2()), roulette(s.next2()) {}
+        Sample2 choices;  // x: which light, y: which lobe
+        Sample2 light, direction, roulette;
+    };
+
     // How the ray at hand was chosen: what light sampling from there would have had to compete with.
     struct Arrival {
         std::optional<PerSteradian> density;  // p_hero; absent from the camera and after a Dirac lobe
@@ -81,17 +95,22 @@ class Path final : public Integrator {
         return state.weight * Le * (1 / mixture(state, arrival, p));
     }
 
-    static Radiance from_light_sample(Scene const& scene, Hit const& hit, Interaction const& here,
-                                      Wavelengths const& wavelengths, PathState const& state, Sampler& sampler,
-                                      RayStatistics& statistics) {
-        auto const choice = scene.lights.choose(sampler.next());
+    // What a light sample brings if nothing stands between.
+    struct Unshadowed {
+        Radiance radiance;
+        Ray shadow_ray;
+    };
+
+    static std::optional<Unshadowed> from_light_sample(Scene const& scene, Hit const& hit, Interaction const& here,
+                                                       Wavelengths const& wavelengths, PathState const& state,
+                                                       VertexNumbers const& u) {
+        auto const choice = scene.lights.choose(u.choices.x);
         if (!choice) return {};
-        auto const light = scene.lights.light(choice->index).sample(hit.point.position, wavelengths, sampler.next2());
+        auto const light = scene.lights.light(choice->index).sample(hit.point.position, wavelengths, u.light);
         if (!light) return {};
         Direction const wi = here.frame.to_local(light->wi);
         BsdfEvaluation const f = here.bsdf.evaluate(here.wo, wi);
         if (is_black(f.value) || !here.is_consistent(light->wi, wi)) return {};
-        if (scene.accelerator->occluded(spawn_shadow_ray(hit.point, light->wi, light->distance), statistics)) return {};
         // In units of a steradian: a density for lights of extent, the Dirac's own measure for the others.
         float const cosine = std::abs(wi.z());
         Lanes competitors;
@@ -101,12 +120,13 @@ class Path final : public Integrator {
             competitors = Lanes(choice->probability);
         float const divisor = Dispersive ? float(mean(state.reach * competitors)) : competitors[0];
         Lanes const scattered(f.value.lane * (cosine / divisor));
-        return state.weight * scattered * light->radiance;
+        return Unshadowed{state.weight * scattered * light->radiance,
+                          spawn_shadow_ray(hit.point, light->wi, light->distance)};
     }
 
-    static bool scatter(Hit const& hit, Interaction const& here, Sampler& sampler, PathState& state, Arrival& arrival,
-                        Ray& ray) {
-        auto const sample = here.bsdf.sample(here.wo, {sampler.next(), sampler.next2()});
+    static bool scatter(Hit const& hit, Interaction const& here, VertexNumbers const& u, PathState& state,
+                        Arrival& arrival, Ray& ray) {
+        auto const sample = here.bsdf.sample(here.wo, {u.choices.y, u.direction});
         if (!sample) return false;
         Direction const wi = here.frame.to_world(sample->wi);
         if (!here.is_consistent(wi, sample->wi)) return false;

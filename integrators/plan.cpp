@@ -43,7 +43,8 @@ RenderPlan make_plan(Scene const& scene) {
         return used;
     };
 
-    std::string const dispersive = names_of(scene, [](NamedMaterial const& m) { return m.material->is_dispersive(); });
+    std::string const dispersive =
+        names_of(scene, [](NamedMaterial const& m) { return m.material->traits.dispersive; });
     plan.dispersion =
         decide("dispersion", !dispersive.empty(),
                dispersive.empty() ? "no index of a transparent body depends on wavelength: all lanes share "
@@ -56,7 +57,7 @@ RenderPlan make_plan(Scene const& scene) {
                                                      "ends its path"
                                                    : "rays that leave the scene bring light");
 
-    std::string const finite = names_of(scene, [](NamedMaterial const& m) { return m.material->has_density(); });
+    std::string const finite = names_of(scene, [](NamedMaterial const& m) { return m.material->traits.has_density; });
     bool const lamps = scene.lights.choose(0).has_value();
     plan.light_sampling = decide("light sampling", lamps && !finite.empty(),
                                  !lamps           ? "no light has any power"

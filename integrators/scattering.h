@@ -31,19 +31,18 @@ struct Interaction {
 
   private:
     Interaction(Material const& material, Hit const& hit, Direction const& to_viewer, Wavelengths const& wavelengths)
-        : bsdf(material.at(hit.point, wavelengths)),
-          frame(hit.point.frame),
-          geometric_normal(hit.point.geometric_normal) {
-        if (material.is_two_sided() && to_viewer.dot(geometric_normal) < 0) {
+        : bsdf(material.at(hit.point, wavelengths)), geometric_normal(hit.point.geometric_normal) {
+        float cosine = to_viewer.dot(geometric_normal);
+        Direction normal = hit.point.normal;
+        if (material.traits.two_sided && cosine < 0) {
             geometric_normal = -geometric_normal;
-            frame = Frame::around(-frame.normal);
+            normal = -normal;
+            cosine = -cosine;
         }
-        wo = frame.to_local(to_viewer);
         // Seen from behind the shading normal but before the surface: as good as grazing.
-        if ((wo.z() > 0) != (to_viewer.dot(geometric_normal) > 0)) {
-            frame = Frame::around(geometric_normal);
-            wo = frame.to_local(to_viewer);
-        }
+        if ((to_viewer.dot(normal) > 0) != (cosine > 0)) normal = geometric_normal;
+        frame = Frame::around(normal);
+        wo = frame.to_local(to_viewer);
     }
 };
 

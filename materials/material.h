@@ -38,26 +38,32 @@ class Bsdf {
 // What a material may look at.
 struct SurfacePoint {
     Vector position;
-    Direction geometric_normal;  // the front side of the shape
-    Frame frame;                 // shading frame; its normal is on the front side too
+    Direction geometric_normal;  // on the front side of the shape
+    Direction normal;            // for shading; on the front side too
     Vector2 uv{0, 0};
+};
+
+// What is known of a material before it is hit.
+struct MaterialTraits {
+    bool two_sided = true;  // acts alike on both sides: the frame is turned to wo; dielectrics tell inside from outside
+    bool dispersive = false;  // wavelengths part company here
+    bool has_density = true;  // some closure has a density: if none has, light sampling is in vain
 };
 
 class Material {
   public:
     virtual ~Material() = default;
     virtual Bsdf at(SurfacePoint const& point, Wavelengths const& wavelengths) const = 0;
-    // Opaque models act alike on both sides: their frame is turned to wo. Dielectrics tell inside from outside.
-    virtual bool is_two_sided() const { return true; }
-    // Whether wavelengths part company here.
-    virtual bool is_dispersive() const { return false; }
-    // Whether some closure of this material has a density: if none has, light sampling is in vain.
-    virtual bool has_density() const { return true; }
+
+    MaterialTraits const traits;
+
+  protected:
+    explicit Material(MaterialTraits const& t) : traits(t) {}
 };
 
 class DiffuseMaterial : public Material {
   public:
-    explicit DiffuseMaterial(Reflectance reflectance) : reflectance_(std::move(reflectance)) {}
+    explicit DiffuseMaterial(Reflectance reflectance) : Material({}), reflectance_(std::move(reflectance)) {}
     Bsdf at(SurfacePoint const&, Wavelengths const& w) const override { return Lambert{reflectance_.at(w)}; }
 
   private:
@@ -66,19 +72,19 @@ class DiffuseMaterial : public Material {
 
 class BlackMaterial : public Material {
   public:
+    BlackMaterial() : Material({.has_density = false}) {}
     Bsdf at(SurfacePoint const&, Wavelengths const&) const override { return Black{}; }
-    bool has_density() const override { return false; }
 };
 
 class ConductorMaterial : public Material {
   public:
     // roughness: GGX alpha, 0 for a mirror.
-    ConductorMaterial(Index n, Index k, float roughness) : n_(std::move(n)), k_(std::move(k)), roughness_(roughness) {}
+    ConductorMaterial(Index n, Index k, float roughness)
+        : Material({.has_density = roughness > 0}), n_(std::move(n)), k_(std::move(k)), roughness_(roughness) {}
     Bsdf at(SurfacePoint const&, Wavelengths const& w) const override {
         if (roughness_ == 0) return SmoothConductor{n_.at(w), k_.at(w)};
         return RoughConductor{n_.at(w), k_.at(w), {roughness_}};
     }
-    bool has_density() const override { return roughness_ > 0; }
 
   private:
     Index n_, k_;
@@ -87,13 +93,15 @@ class ConductorMaterial : public Material {
 
 class DielectricMaterial : public Material {
   public:
-    DielectricMaterial(Index inside, Index outside) : inside_(std::move(inside)), outside_(std::move(outside)) {}
+    DielectricMaterial(Index inside, Index outside)
+        : Material({.two_sided = false,
+                    .dispersive = !inside.is_constant() || !outside.is_constant(),
+                    .has_density = false}),
+          inside_(std::move(inside)),
+          outside_(std::move(outside)) {}
     Bsdf at(SurfacePoint const&, Wavelengths const& w) const override {
         return SmoothDielectric{inside_.at(w), outside_.at(w)};
     }
-    bool is_two_sided() const override { return false; }
-    bool has_density() const override { return false; }
-    bool is_dispersive() const override { return !inside_.is_constant() || !outside_.is_constant(); }
 
   private:
     Index inside_, outside_;

@@ -124,7 +124,7 @@ RTCGeometry make_geometry(RTCDevice device, Frustum const&) {
 // a closed form pull it onto the surface, which leaves an error of a few units in the last place.
 SurfacePoint surface_point(Sphere const& s, Vector const& on_ray, RTCHit const&) {
     Direction const n = (on_ray - s.centre).normalized();
-    return {s.centre + s.radius * n, n, Frame::around(n)};
+    return {s.centre + s.radius * n, n, n};
 }
 SurfacePoint surface_point(Quad const& q, Vector const&, RTCHit const& hit) {
     // Embree's quad is the triangles (0 1 3), parametrised by (u, v), and (2 3 1), by (1 - u, 1 - v).
@@ -132,36 +132,33 @@ SurfacePoint surface_point(Quad const& q, Vector const&, RTCHit const& hit) {
     float const u = hit.u, v = hit.v;
     Vector const p = u + v <= 1 ? Vector(c[0] + u * (c[1] - c[0]) + v * (c[3] - c[0]))
                                 : Vector(c[2] + (1 - u) * (c[3] - c[2]) + (1 - v) * (c[1] - c[2]));
-    Direction const n = q.normal();
-    return {p, n, Frame::around(n), {u, v}};
+    return {p, q.normal, q.normal, {u, v}};
 }
 SurfacePoint surface_point(Disc const& d, Vector const& on_ray, RTCHit const&) {
-    return {on_ray - d.normal * d.normal.dot(on_ray - d.centre), d.normal, Frame::around(d.normal)};
+    return {on_ray - d.normal * d.normal.dot(on_ray - d.centre), d.normal, d.normal};
 }
 SurfacePoint surface_point(Frustum const& f, Vector const& on_ray, RTCHit const&) {
     auto const [position, normal] = project(f, on_ray);
-    return {position, normal, Frame::around(normal)};
+    return {position, normal, normal};
 }
 SurfacePoint surface_point(MeshShape const& m, Vector const&, RTCHit const& hit) {
     auto const& t = m.mesh->triangle[hit.primID];
     Vector const &a = m.mesh->position[t[0]], &b = m.mesh->position[t[1]], &c = m.mesh->position[t[2]];
     float const u = hit.u, v = hit.v, w = 1 - u - v;
     Direction const n = (b - a).cross(c - a).normalized();
-    SurfacePoint point{w * a + u * b + v * c, n, {}};
-    Direction shading = n;
+    SurfacePoint point{w * a + u * b + v * c, n, n};
     if (m.smooth && !m.mesh->normal.empty()) {
         auto const& N = m.mesh->normal;
-        shading = (w * N[t[0]] + u * N[t[1]] + v * N[t[2]]).normalized();
-        if (shading.dot(n) < 0) shading = -shading;  // the winding decides which side is the front
+        point.normal = (w * N[t[0]] + u * N[t[1]] + v * N[t[2]]).normalized();
+        if (point.normal.dot(n) < 0) point.normal = -point.normal;  // the winding decides which side is the front
     }
-    point.frame = Frame::around(shading);
     if (!m.mesh->uv.empty()) point.uv = w * m.mesh->uv[t[0]] + u * m.mesh->uv[t[1]] + v * m.mesh->uv[t[2]];
     return point;
 }
 
 void flip(SurfacePoint& p) {
     p.geometric_normal = -p.geometric_normal;
-    p.frame = Frame::around(-p.frame.normal);
+    p.normal = -p.normal;
 }
 
 struct PlacedObject {
@@ -281,7 +278,7 @@ std::optional<Hit> Accelerator::closest(Ray const& ray, RayStatistics& statistic
         auto const normal_map = placed->to_object.linear().transpose();
         hit.point.position = placed->to_world * hit.point.position;
         hit.point.geometric_normal = (normal_map * hit.point.geometric_normal).normalized();
-        hit.point.frame = Frame::around((normal_map * hit.point.frame.normal).normalized());
+        hit.point.normal = (normal_map * hit.point.normal).normalized();
     }
     return hit;
 }

@@ -25,16 +25,24 @@ class AreaLight : public Light {
   protected:
     int sides() const { return strength_.emitter.two_sided ? 2 : 1; }
 
+    // Whether a point of outward normal n shines along -d.
+    bool shines(Vector const& d, Direction const& n) const {
+        float const facing = flipped_ ? d.dot(n) : -d.dot(n);
+        return facing > 0 || (facing < 0 && strength_.emitter.two_sided);
+    }
+
+    // The place at d from the shaded point, found with the given density; it shines.
+    std::optional<LightSample> at(Vector const& d, Wavelengths const& wavelengths, PerSteradian density) const {
+        float const distance = d.norm();
+        if (!(distance > 0) || !(density.value > 0) || !(density.value < infinity)) return std::nullopt;
+        return LightSample{d / distance, distance, strength_.emitter.radiance.at(wavelengths), density};
+    }
+
     // A point of the surface with its outward normal, found with the given density.
     std::optional<LightSample> towards(Vector const& from, Vector const& point, Direction const& outward,
                                        Wavelengths const& wavelengths, PerSteradian density) const {
         Vector const d = point - from;
-        float const distance = d.norm();
-        if (!(distance > 0) || !(density.value > 0) || !(density.value < infinity)) return std::nullopt;
-        Direction const wi = d / distance;
-        float const facing = flipped_ ? wi.dot(outward) : -wi.dot(outward);
-        if (facing == 0 || (facing < 0 && !strength_.emitter.two_sided)) return std::nullopt;
-        return LightSample{wi, distance, strength_.emitter.radiance.at(wavelengths), density};
+        return shines(d, outward) ? at(d, wavelengths, density) : std::nullopt;
     }
 
     static PerSteradian area_density(float area, Vector const& from, Vector const& point, Direction const& normal) {
@@ -69,8 +77,7 @@ class SphereLight final : public AreaLight {
         float const half_chord2 = square(sphere_.radius) - (d - along * wi).squaredNorm();
         Vector const point = from + (along - std::sqrt(std::max(0.0f, half_chord2))) * wi;
         Direction const n = (point - sphere_.centre).normalized();
-        float const facing = flipped_ ? wi.dot(n) : -wi.dot(n);
-        if (facing < 0 && !strength_.emitter.two_sided) return std::nullopt;
+        if (!shines(wi, n)) return std::nullopt;
         return LightSample{wi, (point - from).norm(), strength_.emitter.radiance.at(wavelengths), cone_density(height)};
     }
     PerSteradian density(Vector const& from, SurfacePoint const& on, std::uint32_t) const override {
@@ -99,10 +106,10 @@ class RectangleLight final : public AreaLight {
                                            quad.corner[3] - quad.corner[0])) {}
 
     std::optional<LightSample> sample(Vector const& from, Wavelengths const& wavelengths, Sample2 u) const override {
+        if (!shines(rectangle_.corner - from, rectangle_.normal)) return std::nullopt;
         SphericalRectangle const seen(rectangle_, from);
         if (seen.solid_angle() > smallest_solid_angle)
-            return towards(from, from + seen.sample(u), rectangle_.normal, wavelengths,
-                           PerSteradian(1 / seen.solid_angle()));
+            return at(seen.sample(u), wavelengths, PerSteradian(1 / seen.solid_angle()));
         Vector const point =
             rectangle_.corner + u.x * rectangle_.width * rectangle_.x + u.y * rectangle_.height * rectangle_.y;
         return towards(from, point, rectangle_.normal, wavelengths,
@@ -212,8 +219,9 @@ class FrustumLight final : public AreaLight {
         float const r0 = frustum_.radius, r1 = frustum_.top_radius;
         float const r = std::sqrt(r0 * r0 + u.x * (r1 * r1 - r0 * r0));
         float const z = r0 + r1 > 0 ? u.x * (r1 + r0) / (r + r0) : 0;  // (r - r0) / (r1 - r0)
-        float const phi = 2 * pi * u.y, m = (r1 - r0) / frustum_.length();
-        Vector const outward = frame_.to_world({std::cos(phi), std::sin(phi), 0});
+        float const m = (r1 - r0) / frustum_.length();
+        auto const [sine, cosine] = sine_cosine_of_turns(u.y);
+        Vector const outward = frame_.to_world({cosine, sine, 0});
         Vector const point = frustum_.from + z * (frustum_.to - frustum_.from) + r * outward;
         Direction const n = (outward - m * frame_.normal).normalized();
         return towards(from, point, n, wavelengths, area_density(static_cast<float>(area_), from, point, n));

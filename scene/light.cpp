@@ -19,7 +19,7 @@ LightSet::LightSet(std::vector<std::unique_ptr<Light>> lights, double scene_radi
     if (total > 0) by_power_ = DiscreteDistribution(power);
 }
 
-std::optional<LightSet::Choice> LightSet::choose(float u) const {
+std::optional<LightSet::Choice> LightSet::choose_by_power(float u) const {
     if (by_power_.size() == 0) return std::nullopt;
     auto const choice = by_power_.sample(u);
     if (choice.probability <= 0) return std::nullopt;

@@ -89,10 +89,15 @@ class LightSet {
         float rest;
     };
     // Probability 0 never comes out; a set whose lights are all dark chooses nothing.
-    std::optional<Choice> choose(float u) const;
+    std::optional<Choice> choose(float u) const {
+        if (by_power_.size() == 1) return Choice{0, 1, u};
+        return choose_by_power(u);
+    }
     float probability(int index) const { return by_power_.size() > 0 ? by_power_.probability(index) : 0; }
 
   private:
+    std::optional<Choice> choose_by_power(float u) const;
+
     std::vector<std::unique_ptr<Light>> lights_;
     std::vector<int> environments_;
     DiscreteDistribution by_power_;

@@ -18,7 +18,9 @@ struct Sphere {
 // Four corners of a plane in order; two triangles (0 1 2) (0 2 3). Front: where they run counter-clockwise.
 struct Quad {
     std::array<Vector, 4> corner;
-    Vector normal() const { return (corner[2] - corner[0]).cross(corner[3] - corner[1]).normalized(); }
+    Direction normal;
+
+    static Quad through(std::array<Vector, 4> const& c) { return {c, (c[2] - c[0]).cross(c[3] - c[1]).normalized()}; }
     float area() const { return 0.5f * (corner[2] - corner[0]).cross(corner[3] - corner[1]).norm(); }
     // Sides at right angles, opposite ones equal, to a part in 1e5: what the solid-angle sampling of rectangles wants.
     bool is_rectangle() const;

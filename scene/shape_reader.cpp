@@ -39,9 +39,7 @@ void read_quad(SceneBuilder& b, Fields& f, Geometries& out) {
     if (!(normal.norm() > 1e-12 * square(size))) return f.error_at("corners", "the quad has no area");
     if (std::abs((c[1] - c[0]).dot(normal.normalized())) > 1e-5 * size)
         return f.error_at("corners", "the four corners are not in one plane");
-    Quad quad;
-    for (std::size_t i = 0; i < 4; ++i) quad.corner[i] = metres(b, c[i]);
-    out.push_back(quad);
+    out.push_back(Quad::through({metres(b, c[0]), metres(b, c[1]), metres(b, c[2]), metres(b, c[3])}));
 }
 
 void read_disc(SceneBuilder& b, Fields& f, Geometries& out) {
@@ -65,7 +63,7 @@ void read_box(SceneBuilder& b, Fields& f, Geometries& out) {
     constexpr unsigned faces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
                                       {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
     for (auto const& face : faces)
-        out.push_back(Quad{{corner(face[0]), corner(face[1]), corner(face[2]), corner(face[3])}});
+        out.push_back(Quad::through({corner(face[0]), corner(face[1]), corner(face[2]), corner(face[3])}));
 }
 
 void read_frustum(SceneBuilder& b, Fields& f, double radius, double top, Geometries& out) {

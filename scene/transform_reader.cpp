@@ -75,6 +75,7 @@ struct Apply {
     bool operator()(Quad& q) const {
         for (Vector& c : q.corner) c = point(c);
         if (t.linear().determinant() < 0) std::swap(q.corner[1], q.corner[3]);  // keep the front in front
+        q = Quad::through(q.corner);
         return true;
     }
     bool operator()(MeshShape& m) const {
