@@ -21,19 +21,19 @@ std::vector<RecordedRay> record(Scene const& scene, Integrator const& integrator
     std::vector<RecordedRay> rays;
     RayStatistics statistics;
     statistics.recording = &rays;
-    WavelengthSampler const wavelengths = make_wavelength_sampler(scene, plan);
-    Camera const camera(scene.camera, scene.film.width, scene.film.height);
+    PathStarter const starter(scene, plan, scene.film.width, scene.film.height, scene.render.sampler, 0);
+    std::vector<CameraPath> batch;
+    auto const follow = [&] {
+        integrator.follow(scene, batch, statistics);
+        batch.clear();
+    };
     for (int y = 0; y < scene.film.height; ++y)
         for (int x = 0; x < scene.film.width; ++x)
             for (int s = 0; s < spp; ++s) {
-                Sampler sampler(SamplerKind::sobol, 0, static_cast<std::uint32_t>(y * scene.film.width + x),
-                                static_cast<std::uint32_t>(s));
-                Sample2 const place = sampler.next2();
-                Wavelengths const w = wavelengths.sample(sampler.next());
-                Ray const ray =
-                    camera.ray(static_cast<float>(x) + place.x, static_cast<float>(y) + place.y, sampler.next2());
-                integrator.radiance(scene, ray, w, sampler, statistics);
+                starter.start(x, y, static_cast<std::uint32_t>(s), batch.emplace_back());
+                if (batch.size() == batch_size) follow();
             }
+    follow();
     return rays;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// An integrator estimates the spectral radiance that arrives along a ray. It is pure: no camera, no film, no state.
+// An integrator estimates the spectral radiance that arrives along rays, several at a time. It is pure: no camera, no
+// film, no state.
 #pragma once
 
 #include <memory>
@@ -7,25 +8,18 @@
 #include <span>
 #include <string>
 
-#include "base/sampler.h"
-#include "scene/scene.h"
+#include "integrators/camera_path.h"
 
 namespace iride {
 
-struct RenderPlan;
-
-// One camera path's radiance; `complete` is false if the path was given up (longest_path), and the sample must be
-// dropped and counted.
-struct PathResult {
-    Radiance radiance;
-    bool complete = true;
-};
+// The most paths that are followed together.
+inline constexpr int batch_size = 64;
 
 class Integrator {
   public:
     virtual ~Integrator() = default;
-    virtual PathResult radiance(Scene const& scene, Ray ray, Wavelengths const& wavelengths, Sampler& sampler,
-                                RayStatistics& statistics) const = 0;
+    // Follow at most batch_size paths, each on its own: what a path brings does not depend on those beside it.
+    virtual void follow(Scene const& scene, std::span<CameraPath> paths, RayStatistics& statistics) const = 0;
 };
 
 struct IntegratorEntry {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "integrators/path.h"
 
+#include <algorithm>
+#include <array>
+
 #include "integrators/scattering.h"
 
 namespace iride {
@@ -9,6 +12,71 @@ namespace {
 
 constexpr int roulette_from = 2;  // scatterings before paths may end by chance
 
+// The numbers of the paths of a batch that are still under way.
+class Alive {
+  public:
+    explicit Alive(std::size_t count) : count_(static_cast<int>(count)) {
+        for (int i = 0; i < count_; ++i) index_[static_cast<std::size_t>(i)] = i;
+    }
+    bool none() const { return count_ == 0; }
+
+    // Do `stage` for each; those for which it returns false have ended.
+    template <class Stage>
+    void keep_if(Stage&& stage) {
+        int kept = 0;
+        for (int k = 0; k < count_; ++k) {
+            int const i = index_[static_cast<std::size_t>(k)];
+            index_[static_cast<std::size_t>(kept)] = i;
+            kept += stage(static_cast<std::size_t>(i)) ? 1 : 0;
+        }
+        count_ = kept;
+    }
+    template <class Stage>
+    void for_each(Stage&& stage) const {
+        for (int k = 0; k < count_; ++k) stage(static_cast<std::size_t>(index_[static_cast<std::size_t>(k)]));
+    }
+
+  private:
+    std::array<int, batch_size> index_;
+    int count_;
+};
+
+// The decisions at a vertex: a block of the sampler.
+struct VertexNumbers {
+    Sample2 choices;  // x: which light, y: which lobe
+    Sample2 light, direction, roulette;
+};
+VertexNumbers numbers_of_vertex(Sampler& sampler, int vertex) {
+    sampler.begin_vertex(static_cast<std::uint32_t>(vertex));
+    return {sampler.next2(), sampler.next2(), sampler.next2(), sampler.next2()};
+}
+
+// How the ray at hand was chosen: what light sampling from there would have had to compete with.
+struct Arrival {
+    std::optional<PerSteradian> density;  // p_hero; absent from the camera and after a Dirac lobe
+    Vector from{0, 0, 0};
+    float mean_reach_before = 1;
+};
+
+// What a light sample brings if nothing stands between.
+struct Unshadowed {
+    Radiance radiance;
+    Ray shadow_ray;
+};
+
+// A path under way, at its latest vertex.
+struct Walk {
+    PathState state;
+    Arrival arrival;
+    VertexNumbers numbers;
+    bool has_hit, goes_on;
+    Hit hit;
+    std::optional<Interaction> here;
+    std::optional<Unshadowed> direct;
+};
+
+// The paths of a batch go on together, stage by stage: within a stage they are independent of one another, and the
+// processor works on several of their long chains of dependent arithmetic at a time.
 template <bool Dispersive>
 class Path final : public Integrator {
   public:
@@ -17,54 +85,58 @@ class Path final : public Integrator {
           light_sampling_(plan.light_sampling),
           environment_(plan.environment) {}
 
-    PathResult radiance(Scene const& scene, Ray ray, Wavelengths const& wavelengths, Sampler& sampler,
-                        RayStatistics& statistics) const override {
-        Radiance L;
-        PathState state;
-        Arrival arrival;
-        for (int bounce = 0;; ++bounce) {
-            std::optional<Hit> const hit = scene.accelerator->closest(ray, statistics);
-            if (!hit) {
-                if (environment_) L += from_environment(scene, ray.direction, wavelengths, state, arrival);
-                return {L};
-            }
-            if (hit->shape->light >= 0) L += from_emitter(scene, *hit, ray, wavelengths, state, arrival);
-            if (bounce >= max_bounces_) return {L, max_bounces_ < longest_path};
-
-            sampler.begin_vertex(static_cast<std::uint32_t>(bounce));
-            VertexNumbers const u(sampler);
-            Interaction const here(scene, *hit, -ray.direction, wavelengths);
-            // The light sample and the next direction are both drawn before anything is traced: each is a long chain of
-            // dependent arithmetic, and the processor works on the two side by side.
-            std::optional<Unshadowed> direct;
-            if (light_sampling_ && here.bsdf.has_density())
-                direct = from_light_sample(scene, *hit, here, wavelengths, state, u);
-            bool const scattered = scatter(*hit, here, u, state, arrival, ray);
-            if (direct && !scene.accelerator->occluded(direct->shadow_ray, statistics)) L += direct->radiance;
-            if (!scattered) return {L};
-            if (bounce >= roulette_from && !survives<Dispersive>(state, u.roulette.x)) return {L};
+    void follow(Scene const& scene, std::span<CameraPath> paths, RayStatistics& statistics) const override {
+        Walks walks;
+        Alive alive(paths.size());
+        for (int bounce = 0; !alive.none(); ++bounce) {
+            alive.for_each([&](std::size_t i) { walks[i].numbers = numbers_of_vertex(paths[i].sampler, bounce); });
+            find_hits(scene, paths, walks, alive, bounce, statistics);
+            alive.keep_if([&](std::size_t i) { return arrive(scene, paths[i], walks[i], bounce); });
+            if (light_sampling_) sample_lights(scene, paths, walks, alive);
+            alive.for_each([&](std::size_t i) { walks[i].goes_on = scatter(paths[i], walks[i]); });
+            if (light_sampling_) add_direct_light(scene, paths, walks, alive, statistics);
+            alive.keep_if([&](std::size_t i) {
+                Walk& walk = walks[i];
+                return walk.goes_on &&
+                       (bounce < roulette_from || survives<Dispersive>(walk.state, walk.numbers.roulette.x));
+            });
         }
     }
 
   private:
-    // The decisions at a vertex, a block of the sampler.
-    struct VertexNumbers {
-        explicit VertexNumbers(Sampler& s)
-            : choices(s.next2()), light(s.next2()), direction(s.next2()), roulette(s.next2()) {}
-        Sample2 choices;  // x: which light, y: which lobe
-        Sample2 light, direction, roulette;
-    };
+    using Walks = std::array<Walk, batch_size>;
 
-    // How the ray at hand was chosen: what light sampling from there would have had to compete with.
-    struct Arrival {
-        std::optional<PerSteradian> density;  // p_hero; absent from the camera and after a Dirac lobe
-        Vector from{0, 0, 0};
-        float mean_reach_before = 1;
-    };
+    static void find_hits(Scene const& scene, std::span<CameraPath const> paths, Walks& walks, Alive const& alive,
+                          int bounce, RayStatistics& statistics) {
+        std::array<ClosestQuery, batch_size> queries;
+        std::size_t count = 0;
+        alive.for_each([&](std::size_t i) { queries[count++] = {&paths[i].ray, &walks[i].hit}; });
+        // Neighbours leave the camera together; after a scattering each goes its own way.
+        auto const coherence = bounce == 0 ? Accelerator::Coherence::close : Accelerator::Coherence::none;
+        scene.accelerator->closest(std::span(queries).first(count), coherence, statistics);
+        count = 0;
+        alive.for_each([&](std::size_t i) { walks[i].has_hit = queries[count++].found; });
+    }
+
+    static void add_direct_light(Scene const& scene, std::span<CameraPath> paths, Walks const& walks,
+                                 Alive const& alive, RayStatistics& statistics) {
+        std::array<ShadowQuery, batch_size> queries;
+        std::array<std::size_t, batch_size> owner;
+        std::size_t count = 0;
+        alive.for_each([&](std::size_t i) {
+            if (!walks[i].direct) return;
+            queries[count].ray = walks[i].direct->shadow_ray;
+            owner[count++] = i;
+        });
+        scene.accelerator->occluded(std::span(queries).first(count), statistics);
+        for (std::size_t k = 0; k < count; ++k)
+            if (!queries[k].occluded) paths[owner[k]].radiance += walks[owner[k]].direct->radiance;
+    }
 
     // mean(next.reach) + mean(state.reach) p_light / p_hero.
-    static float mixture(PathState const& next, Arrival const& arrival, float light_density) {
-        float const reach = Dispersive ? float(mean(next.reach)) : 1.0f;
+    static float mixture(Walk const& walk, float light_density) {
+        float const reach = Dispersive ? float(mean(walk.state.reach)) : 1.0f;
+        Arrival const& arrival = walk.arrival;
         if (!arrival.density) return reach;
         return reach + arrival.mean_reach_before * light_density / arrival.density->value;
     }
@@ -73,71 +145,108 @@ class Path final : public Integrator {
         return light_sampling_ ? scene.lights.probability(light) : 0;
     }
 
-    Radiance from_environment(Scene const& scene, Direction const& wi, Wavelengths const& wavelengths,
-                              PathState const& state, Arrival const& arrival) const {
+    // What is emitted where the ray ends, and the surface there; false if the path ends with it.
+    bool arrive(Scene const& scene, CameraPath& path, Walk& walk, int bounce) const {
+        if (!walk.has_hit) {
+            if (environment_) path.radiance += from_environment(scene, path, walk);
+            return false;
+        }
+        if (walk.hit.shape->light >= 0) path.radiance += from_emitter(scene, path, walk);
+        if (bounce >= max_bounces_) {
+            path.complete = max_bounces_ < longest_path;
+            return false;
+        }
+        walk.here.emplace(scene, walk.hit, -path.ray.direction, path.wavelengths);
+        return true;
+    }
+
+    Radiance from_environment(Scene const& scene, CameraPath const& path, Walk const& walk) const {
         Radiance L;
+        Direction const wi = path.ray.direction;
         for (int e : scene.lights.environments()) {
             Light const& light = scene.lights.light(e);
-            float const p = arrival.density ? choice_density(scene, e) * light.arriving_density(wi).value : 0;
-            L += state.weight * light.arriving(wi, wavelengths) * (1 / mixture(state, arrival, p));
+            float const p = walk.arrival.density ? choice_density(scene, e) * light.arriving_density(wi).value : 0;
+            L += walk.state.weight * light.arriving(wi, path.wavelengths) * (1 / mixture(walk, p));
         }
         return L;
     }
 
-    Radiance from_emitter(Scene const& scene, Hit const& hit, Ray const& ray, Wavelengths const& wavelengths,
-                          PathState const& state, Arrival const& arrival) const {
+    Radiance from_emitter(Scene const& scene, CameraPath const& path, Walk const& walk) const {
+        Hit const& hit = walk.hit;
         Light const& light = scene.lights.light(hit.shape->light);
-        Radiance const Le = light.emitted(hit.point, -ray.direction, wavelengths);
+        Radiance const Le = light.emitted(hit.point, -path.ray.direction, path.wavelengths);
         if (is_black(Le)) return {};
         float p = 0;
-        if (arrival.density)
-            p = choice_density(scene, hit.shape->light) * light.density(arrival.from, hit.point, hit.primitive).value;
-        return state.weight * Le * (1 / mixture(state, arrival, p));
+        if (walk.arrival.density)
+            p = choice_density(scene, hit.shape->light) *
+                light.density(walk.arrival.from, hit.point, hit.primitive).value;
+        return walk.state.weight * Le * (1 / mixture(walk, p));
     }
 
-    // What a light sample brings if nothing stands between.
-    struct Unshadowed {
-        Radiance radiance;
-        Ray shadow_ray;
-    };
+    // Choose a light for each vertex that can use one; ask each light for all its samples at a time.
+    static void sample_lights(Scene const& scene, std::span<CameraPath const> paths, Walks& walks, Alive const& alive) {
+        struct Asking {
+            std::size_t walk;
+            LightSet::Choice choice;
+        };
+        std::array<Asking, batch_size> all;
+        std::size_t count = 0;
+        alive.for_each([&](std::size_t i) {
+            walks[i].direct.reset();
+            if (walks[i].here->bsdf.has_density()) all[count++] = {i, scene.lights.choose(walks[i].numbers.choices.x)};
+        });
+        std::span<Asking> const asking(all.data(), count);
+        if (scene.lights.size() > 1) std::ranges::sort(asking, {}, [](Asking const& a) { return a.choice.index; });
+        std::array<LightRequest, batch_size> requests;
+        for (std::size_t k = 0; k < count; ++k) {
+            std::size_t const i = asking[k].walk;
+            requests[k].from = walks[i].hit.point.position;
+            requests[k].u = walks[i].numbers.light;
+            requests[k].wavelengths = &paths[i].wavelengths;
+        }
+        for (std::size_t first = 0, last; first < count; first = last) {
+            int const light = asking[first].choice.index;
+            for (last = first + 1; last < count && asking[last].choice.index == light;) ++last;
+            scene.lights.light(light).answer(std::span(requests).subspan(first, last - first));
+        }
+        for (std::size_t k = 0; k < count; ++k)
+            if (requests[k].sample) weigh(*requests[k].sample, asking[k].choice.probability, walks[asking[k].walk]);
+    }
 
-    static std::optional<Unshadowed> from_light_sample(Scene const& scene, Hit const& hit, Interaction const& here,
-                                                       Wavelengths const& wavelengths, PathState const& state,
-                                                       VertexNumbers const& u) {
-        auto const choice = scene.lights.choose(u.choices.x);
-        if (!choice) return {};
-        auto const light = scene.lights.light(choice->index).sample(hit.point.position, wavelengths, u.light);
-        if (!light) return {};
-        Direction const wi = here.frame.to_local(light->wi);
+    // What a light sample brings along the path if nothing stands between.
+    static void weigh(LightSample const& light, float choice_probability, Walk& walk) {
+        Interaction const& here = *walk.here;
+        Direction const wi = here.frame.to_local(light.wi);
         BsdfEvaluation const f = here.bsdf.evaluate(here.wo, wi);
-        if (is_black(f.value) || !here.is_consistent(light->wi, wi)) return {};
+        if (is_black(f.value) || !here.is_consistent(light.wi, wi)) return;
         // In units of a steradian: a density for lights of extent, the Dirac's own measure for the others.
         float const cosine = std::abs(wi.z());
         Lanes competitors;
-        if (light->density)
-            competitors = Lanes(f.density.lane + choice->probability * light->density->value);
+        if (light.density)
+            competitors = Lanes(f.density.lane + choice_probability * light.density->value);
         else
-            competitors = Lanes(choice->probability);
-        float const divisor = Dispersive ? float(mean(state.reach * competitors)) : competitors[0];
+            competitors = Lanes(choice_probability);
+        float const divisor = Dispersive ? float(mean(walk.state.reach * competitors)) : competitors[0];
         Lanes const scattered(f.value.lane * (cosine / divisor));
-        return Unshadowed{state.weight * scattered * light->radiance,
-                          spawn_shadow_ray(hit.point, light->wi, light->distance)};
+        walk.direct.emplace(walk.state.weight * scattered * light.radiance,
+                            spawn_shadow_ray(walk.hit.point, light.wi, light.distance));
     }
 
-    static bool scatter(Hit const& hit, Interaction const& here, VertexNumbers const& u, PathState& state,
-                        Arrival& arrival, Ray& ray) {
-        auto const sample = here.bsdf.sample(here.wo, {u.choices.y, u.direction});
+    // Choose where the path goes on; false if it ends here.
+    static bool scatter(CameraPath& path, Walk& walk) {
+        Interaction const& here = *walk.here;
+        auto const sample = here.bsdf.sample(here.wo, {walk.numbers.choices.y, walk.numbers.direction});
         if (!sample) return false;
         Direction const wi = here.frame.to_world(sample->wi);
         if (!here.is_consistent(wi, sample->wi)) return false;
         if constexpr (Dispersive) {
-            arrival.mean_reach_before = mean(state.reach);
-            state.reach *= sample->reach;
+            walk.arrival.mean_reach_before = mean(walk.state.reach);
+            walk.state.reach *= sample->reach;
         }
-        state.weight *= sample->weight;
-        arrival.density = sample->density;
-        arrival.from = hit.point.position;
-        ray = spawn_ray(hit.point, wi);
+        walk.state.weight *= sample->weight;
+        walk.arrival.density = sample->density;
+        walk.arrival.from = walk.hit.point.position;
+        path.ray = spawn_ray(walk.hit.point, wi);
         return true;
     }
 

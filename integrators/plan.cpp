@@ -58,7 +58,7 @@ RenderPlan make_plan(Scene const& scene) {
                                                    : "rays that leave the scene bring light");
 
     std::string const finite = names_of(scene, [](NamedMaterial const& m) { return m.material->traits.has_density; });
-    bool const lamps = scene.lights.choose(0).has_value();
+    bool const lamps = scene.lights.has_power();
     plan.light_sampling = decide("light sampling", lamps && !finite.empty(),
                                  !lamps           ? "no light has any power"
                                  : finite.empty() ? "every surface is a mirror, glass or black: lamps are found by "

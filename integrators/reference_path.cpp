@@ -12,9 +12,16 @@ class ReferencePath final : public Integrator {
   public:
     explicit ReferencePath(RenderPlan const& plan) : max_bounces_(plan.max_bounces.value_or(longest_path)) {}
 
-    PathResult radiance(Scene const& scene, Ray ray, Wavelengths const& wavelengths, Sampler& sampler,
-                        RayStatistics& statistics) const override {
-        Radiance L;
+    void follow(Scene const& scene, std::span<CameraPath> paths, RayStatistics& statistics) const override {
+        for (CameraPath& path : paths) follow_one(scene, path, statistics);
+    }
+
+  private:
+    void follow_one(Scene const& scene, CameraPath& path, RayStatistics& statistics) const {
+        Ray ray = path.ray;
+        Wavelengths const& wavelengths = path.wavelengths;
+        Sampler& sampler = path.sampler;
+        Radiance& L = path.radiance;
         PathState state;
         for (int bounce = 0;; ++bounce) {
             // Mixture over lanes only: divide by the mean reach.
@@ -23,27 +30,29 @@ class ReferencePath final : public Integrator {
             if (!hit) {
                 for (int e : scene.lights.environments())
                     L += state.weight * scene.lights.light(e).arriving(ray.direction, wavelengths) * per_reach;
-                return {L};
+                return;
             }
             L += state.weight * emitted_at(scene, *hit, ray, wavelengths) * per_reach;
-            if (bounce >= max_bounces_) return {L, max_bounces_ < longest_path};
+            if (bounce >= max_bounces_) {
+                path.complete = max_bounces_ < longest_path;
+                return;
+            }
 
             sampler.begin_vertex(static_cast<std::uint32_t>(bounce));
             Interaction const here(scene, *hit, -ray.direction, wavelengths);
             for (std::size_t i = 0; i < scene.lights.size(); ++i)
                 L += dirac_light(scene, static_cast<int>(i), *hit, here, wavelengths, state, statistics);
             auto const sample = here.bsdf.sample(here.wo, {sampler.next(), sampler.next2()});
-            if (!sample) return {L};
+            if (!sample) return;
             Direction const wi = here.frame.to_world(sample->wi);
-            if (!here.is_consistent(wi, sample->wi)) return {L};
+            if (!here.is_consistent(wi, sample->wi)) return;
             state.weight *= sample->weight;
             state.reach *= sample->reach;
             ray = spawn_ray(hit->point, wi);
-            if (bounce >= 3 && !survives<true>(state, sampler.next())) return {L};
+            if (bounce >= 3 && !survives<true>(state, sampler.next())) return;
         }
     }
 
-  private:
     static Radiance dirac_light(Scene const& scene, int index, Hit const& hit, Interaction const& here,
                                 Wavelengths const& wavelengths, PathState const& state, RayStatistics& statistics) {
         auto const light = scene.lights.light(index).sample(hit.point.position, wavelengths, {0.5f, 0.5f});

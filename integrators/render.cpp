@@ -5,24 +5,76 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <array>
 #include <chrono>
-#include <cmath>
-
-#include "film/filter.h"
 
 namespace iride {
 
 namespace {
 
-constexpr int tile_size = 16;             // pixels: small enough to balance, large enough to keep the caches warm
-constexpr std::uint32_t timed_path = 64;  // every 64th path of a pixel tells the time spent in Embree
+constexpr int tile_size = 16;  // pixels: small enough to balance, large enough to keep the caches warm
+constexpr std::uint32_t batches_per_timing =
+    32;  // every so many batches of a thread, one tells the time spent in Embree
 
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 struct ThreadStatistics {
     RayStatistics rays;
-    std::uint64_t timed_ticks = 0;  // of whole timed paths
+    std::uint64_t batches = 0;
+    std::uint64_t timed_ticks = 0;  // of whole timed batches
+};
+
+// Paths of neighbouring pixels and samples, followed together and added to the film in the order of their start.
+class Batch {
+  public:
+    Batch(Scene const& scene, Integrator const& integrator, PathStarter const& starter, Film& film,
+          ThreadStatistics& statistics)
+        : scene_(scene), integrator_(integrator), starter_(starter), film_(film), statistics_(statistics) {}
+
+    void start(int x, int y, std::uint32_t sample) {
+        if (count_ == 0) begin_timing();
+        origin_[count_] = {x, y};
+        starter_.start(x, y, sample, paths_[count_++]);
+        if (count_ == batch_size) finish();
+    }
+    void finish() {
+        if (count_ == 0) return;
+        integrator_.follow(scene_, std::span(paths_).first(count_), statistics_.rays);
+        for (std::size_t i = 0; i < count_; ++i) deposit(origin_[i], paths_[i]);
+        count_ = 0;
+        if (statistics_.rays.timed) statistics_.timed_ticks += processor_ticks() - started_;
+    }
+
+  private:
+    struct Pixel {
+        int x, y;
+    };
+
+    void begin_timing() {
+        statistics_.rays.timed = statistics_.batches++ % batches_per_timing == batches_per_timing / 2;
+        if (statistics_.rays.timed) started_ = processor_ticks();
+    }
+    void deposit(Pixel p, CameraPath const& path) {
+        if (!path.complete)
+            film_.reject(p.x, p.y, Rejection::path_too_long);
+        else if (!is_finite(path.radiance))
+            film_.reject(p.x, p.y, Rejection::not_finite);
+        else if (is_negative(path.radiance))
+            film_.reject(p.x, p.y, Rejection::negative);
+        else
+            film_.add(p.x, p.y, path.wavelengths, path.radiance);
+    }
+
+    Scene const& scene_;
+    Integrator const& integrator_;
+    PathStarter const& starter_;
+    Film& film_;
+    ThreadStatistics& statistics_;
+    std::array<CameraPath, batch_size> paths_;
+    std::array<Pixel, batch_size> origin_;
+    std::size_t count_ = 0;
+    std::uint64_t started_ = 0;
 };
 
 class Loop {
@@ -33,8 +85,7 @@ class Loop {
           integrator_(integrator),
           settings_(settings),
           film_(film),
-          camera_(scene.camera, film.width(), film.height()),
-          wavelengths_(make_wavelength_sampler(scene, plan)),
+          starter_(scene, plan, film.width(), film.height(), settings.sampler, settings.seed),
           columns_((film.width() + tile_size - 1) / tile_size),
           rows_((film.height() + tile_size - 1) / tile_size) {}
 
@@ -43,11 +94,12 @@ class Loop {
 
     // Samples [first, last) of every pixel of a tile.
     void render_tile(int tile, std::uint32_t first, std::uint32_t last) {
-        ThreadStatistics& statistics = statistics_.local();
+        Batch batch(scene_, integrator_, starter_, film_, statistics_.local());
         int const x0 = tile % columns_ * tile_size, y0 = tile / columns_ * tile_size;
         for (int y = y0; y < std::min(y0 + tile_size, film_.height()); ++y)
             for (int x = x0; x < std::min(x0 + tile_size, film_.width()); ++x)
-                for (std::uint32_t s = first; s < last; ++s) render_sample(x, y, s, statistics);
+                for (std::uint32_t s = first; s < last; ++s) batch.start(x, y, s);
+        batch.finish();
     }
 
     ThreadStatistics totals() const {
@@ -60,45 +112,11 @@ class Loop {
     }
 
   private:
-    void render_sample(int x, int y, std::uint32_t index, ThreadStatistics& statistics) {
-        statistics.rays.timed = index % timed_path == timed_path / 2;
-        std::uint64_t const start = statistics.rays.timed ? processor_ticks() : 0;
-        Sampler sampler(settings_.sampler, settings_.seed, static_cast<std::uint32_t>(y * film_.width() + x), index);
-        Sample2 const place = filtered(sampler.next2());
-        Wavelengths const wavelengths = wavelengths_.sample(sampler.next());
-        Ray const ray = camera_.ray(static_cast<float>(x) + 0.5f + place.x, static_cast<float>(y) + 0.5f + place.y,
-                                    sampler.next2());
-        PathResult const path = integrator_.radiance(scene_, ray, wavelengths, sampler, statistics.rays);
-        if (!path.complete)
-            film_.reject(x, y, Rejection::path_too_long);
-        else if (!is_finite(path.radiance))
-            film_.reject(x, y, Rejection::not_finite);
-        else if (is_negative(path.radiance))
-            film_.reject(x, y, Rejection::negative);
-        else
-            film_.add(x, y, wavelengths, path.radiance);
-        if (statistics.rays.timed) statistics.timed_ticks += processor_ticks() - start;
-    }
-
-    Sample2 filtered(Sample2 u) const {
-        float const r = scene_.film.filter_radius;
-        switch (scene_.film.filter) {
-            case FilterKind::triangle:
-                return {sample_triangle(u.x, r), sample_triangle(u.y, r)};
-            case FilterKind::gaussian:
-                return sample_gaussian(u, r);
-            case FilterKind::box:
-                break;
-        }
-        return {sample_box(u.x, r), sample_box(u.y, r)};
-    }
-
     Scene const& scene_;
     Integrator const& integrator_;
     RenderSettings const& settings_;
     Film& film_;
-    Camera camera_;
-    WavelengthSampler wavelengths_;
+    PathStarter starter_;
     int columns_, rows_;
     tbb::enumerable_thread_specific<ThreadStatistics> statistics_;
 };
@@ -118,20 +136,6 @@ Film make_film(Scene const& scene) {
     std::optional<Bands> bands;
     if (f.band_count > 0) bands = Bands{f.band_range, f.band_count};
     return Film(f.width, f.height, cie1931_2deg(), scene.grid, bands);
-}
-
-WavelengthSampler make_wavelength_sampler(Scene const& scene, RenderPlan const& plan) {
-    SpectralFunction const visible = visible_importance();
-    if (!plan.bands) return WavelengthSampler(plan.wavelengths, visible, scene.grid);
-    WavelengthRange const bands = scene.film.band_range;
-    double const total = visible.integral(plan.wavelengths);
-    TabulatedShape mixed;
-    for (double nm = plan.wavelengths.min_nm; nm < plan.wavelengths.max_nm + 1; ++nm) {
-        bool const in_bands = nm >= bands.min_nm && nm <= bands.max_nm;
-        mixed.nm.push_back(nm);
-        mixed.value.push_back((total > 0 ? visible.at(nm) / total : 0) + (in_bands ? 1 / bands.width() : 0));
-    }
-    return WavelengthSampler(plan.wavelengths, SpectralFunction(std::move(mixed), Outside::hold), scene.grid);
 }
 
 RenderReport render(Scene const& scene, RenderPlan const& plan, Integrator const& integrator,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The render loop: tiles over threads, samples in passes. A pixel is summed by one thread at a time in the order of its
-// samples, so the picture does not depend on threads, tile order or passes.
+// The render loop: tiles over threads, samples in passes, paths in batches. A pixel is summed by one thread at a time
+// in the order of its samples, so the picture does not depend on threads, tile order or passes.
 #pragma once
 
 #include <atomic>
@@ -30,16 +30,12 @@ struct RenderReport {
     double seconds = 0;
     std::uint64_t paths = 0;
     RayStatistics rays;
-    double embree_share = 0;  // of the sampling loop's time, from every 64th path
+    double embree_share = 0;  // of the sampling loop's time, from some of the batches
     bool interrupted = false;
 };
 
 // The film a scene asks for.
 Film make_film(Scene const& scene);
-
-// What wavelengths are drawn from: the observer's importance over the plan's range and, if there are bands, half of it
-// uniform over them.
-WavelengthSampler make_wavelength_sampler(Scene const& scene, RenderPlan const& plan);
 
 RenderReport render(Scene const& scene, RenderPlan const& plan, Integrator const& integrator,
                     RenderSettings const& settings, Film& film);

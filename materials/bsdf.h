@@ -8,7 +8,8 @@
 //
 // A Dirac lobe has no density and evaluate() does not see it. evaluate() returns value and density together: they share
 // their terms. A sample carries weight = f |cos| / p_hero and reach = p_lane / p_hero, the ratio that the lane mixture
-// needs; reach is 0 in lanes for which the direction is impossible, as after a dispersive refraction.
+// needs; reach is 0 in lanes for which the direction is impossible, as after a dispersive refraction. Samples are built
+// in place (std::in_place): a copy of what was just stored piece by piece stalls the processor.
 #pragma once
 
 #include <concepts>

@@ -19,7 +19,8 @@ struct SmoothConductor {
 
     std::optional<BsdfSample> sample(Direction const& wo, Sample3) const {
         if (wo.z() <= 0) return std::nullopt;
-        return BsdfSample{{-wo.x(), -wo.y(), wo.z()}, fresnel_unpolarised(wo.z(), n, k), Lanes(1), std::nullopt};
+        return std::optional<BsdfSample>(std::in_place, Direction(-wo.x(), -wo.y(), wo.z()),
+                                         fresnel_unpolarised(wo.z(), n, k), Lanes(1), std::nullopt);
     }
 };
 
@@ -47,7 +48,8 @@ struct RoughConductor {
         float const lambda_o = ggx.lambda(wo), lambda_i = ggx.lambda(wi);
         PerSteradian const density(ggx.distribution(h).value / (4 * wo.z() * (1 + lambda_o)));
         Lanes const F = fresnel_unpolarised(cosine, n, k);
-        return BsdfSample{wi, F * ((1 + lambda_o) / (1 + lambda_o + lambda_i)), Lanes(1), density};
+        return std::optional<BsdfSample>(std::in_place, wi, F * ((1 + lambda_o) / (1 + lambda_o + lambda_i)), Lanes(1),
+                                         density);
     }
 };
 

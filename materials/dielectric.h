@@ -26,7 +26,8 @@ struct SmoothDielectric {
         Lanes const F = fresnel_unpolarised(cosine, eta, Lanes(0));
         if (u.lobe < F[0]) {
             Lanes const ratio = F * (1 / F[0]);
-            return BsdfSample{{-wo.x(), -wo.y(), wo.z()}, ratio, ratio, std::nullopt};
+            return std::optional<BsdfSample>(std::in_place, Direction(-wo.x(), -wo.y(), wo.z()), ratio, ratio,
+                                             std::nullopt);
         }
         float const relative = 1 / eta[0];
         float const sine2 = (1 - square(cosine)) * square(relative);
@@ -35,7 +36,7 @@ struct SmoothDielectric {
         Direction const wi(-wo.x() * relative, -wo.y() * relative, from_outside ? -cosine_i : cosine_i);
         Lanes reach;
         for (int i = 0; i < lane_count; ++i) reach.lane[i] = eta.lane[i] == eta.lane[0] ? 1.0f : 0.0f;
-        return BsdfSample{wi.normalized(), reach * square(relative), reach, std::nullopt};
+        return std::optional<BsdfSample>(std::in_place, wi.normalized(), reach * square(relative), reach, std::nullopt);
     }
 };
 

@@ -20,7 +20,7 @@ struct Lambert {
         if (wo.z() <= 0) return std::nullopt;
         Direction const wi = to_cosine_hemisphere(u.direction);
         if (wi.z() <= 0) return std::nullopt;  // the rim of the disc: probability 0
-        return BsdfSample{wi, reflectance, Lanes(1), cosine_hemisphere_density(wi.z())};
+        return std::optional<BsdfSample>(std::in_place, wi, reflectance, Lanes(1), cosine_hemisphere_density(wi.z()));
     }
 };
 

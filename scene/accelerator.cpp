@@ -4,6 +4,7 @@
 #include <embree3/rtcore.h>
 #include <x86intrin.h>
 
+#include <array>
 #include <limits>
 #include <stdexcept>
 
@@ -88,27 +89,31 @@ void frustum_bounds(RTCBoundsFunctionArguments const* a) {
     *a->bounds_o = {low.x(), low.y(), low.z(), 0, high.x(), high.y(), high.z(), 0};
 }
 
+Ray lane_of(RTCRayN* rays, unsigned n, unsigned i) {
+    return {{RTCRayN_org_x(rays, n, i), RTCRayN_org_y(rays, n, i), RTCRayN_org_z(rays, n, i)},
+            {RTCRayN_dir_x(rays, n, i), RTCRayN_dir_y(rays, n, i), RTCRayN_dir_z(rays, n, i)},
+            RTCRayN_tnear(rays, n, i),
+            RTCRayN_tfar(rays, n, i)};
+}
+
 void frustum_intersect(RTCIntersectFunctionNArguments const* a) {
-    if (!a->valid[0]) return;
-    auto& rh = *reinterpret_cast<RTCRayHit*>(a->rayhit);
     auto const& f = std::get<Frustum>(static_cast<Shape const*>(a->geometryUserPtr)->geometry);
-    Ray const ray{{rh.ray.org_x, rh.ray.org_y, rh.ray.org_z},
-                  {rh.ray.dir_x, rh.ray.dir_y, rh.ray.dir_z},
-                  rh.ray.tnear,
-                  rh.ray.tfar};
-    std::optional<float> const t = intersect(f, ray);
-    if (!t) return;
-    rh.ray.tfar = *t;
-    rh.hit.geomID = a->geomID;
-    rh.hit.primID = a->primID;
-    rh.hit.instID[0] = a->context->instID[0];
+    RTCRayN* const rays = RTCRayHitN_RayN(a->rayhit, a->N);
+    RTCHitN* const hits = RTCRayHitN_HitN(a->rayhit, a->N);
+    for (unsigned i = 0; i < a->N; ++i) {
+        std::optional<float> const t = a->valid[i] ? intersect(f, lane_of(rays, a->N, i)) : std::nullopt;
+        if (!t) continue;
+        RTCRayN_tfar(rays, a->N, i) = *t;
+        RTCHitN_geomID(hits, a->N, i) = a->geomID;
+        RTCHitN_primID(hits, a->N, i) = a->primID;
+        RTCHitN_instID(hits, a->N, i, 0) = a->context->instID[0];
+    }
 }
 
 void frustum_occluded(RTCOccludedFunctionNArguments const* a) {
-    if (!a->valid[0]) return;
-    auto& r = *reinterpret_cast<RTCRay*>(a->ray);
     auto const& f = std::get<Frustum>(static_cast<Shape const*>(a->geometryUserPtr)->geometry);
-    if (intersect(f, {{r.org_x, r.org_y, r.org_z}, {r.dir_x, r.dir_y, r.dir_z}, r.tnear, r.tfar})) r.tfar = -infinity;
+    for (unsigned i = 0; i < a->N; ++i)
+        if (a->valid[i] && intersect(f, lane_of(a->ray, a->N, i))) RTCRayN_tfar(a->ray, a->N, i) = -infinity;
 }
 
 RTCGeometry make_geometry(RTCDevice device, Frustum const&) {
@@ -161,6 +166,52 @@ void flip(SurfacePoint& p) {
     p.normal = -p.normal;
 }
 
+constexpr std::size_t packet_size = 8;
+
+RTCRay to_embree(Ray const& r) {
+    return {r.origin.x(),
+            r.origin.y(),
+            r.origin.z(),
+            r.t_min,
+            r.direction.x(),
+            r.direction.y(),
+            r.direction.z(),
+            0 /* time */,
+            r.t_max,
+            ~0u /* mask */,
+            0,
+            0};
+}
+
+// The same in lane i of a packet.
+void set_lane(RTCRay8& packet, std::size_t i, Ray const& r) {
+    packet.org_x[i] = r.origin.x();
+    packet.org_y[i] = r.origin.y();
+    packet.org_z[i] = r.origin.z();
+    packet.tnear[i] = r.t_min;
+    packet.dir_x[i] = r.direction.x();
+    packet.dir_y[i] = r.direction.y();
+    packet.dir_z[i] = r.direction.z();
+    packet.time[i] = 0;
+    packet.tfar[i] = r.t_max;
+    packet.mask[i] = ~0u;
+    packet.id[i] = packet.flags[i] = 0;
+}
+
+// Which lanes of a packet hold one of `count` rays.
+std::array<int, packet_size> valid_lanes(std::size_t count) {
+    std::array<int, packet_size> valid;
+    for (std::size_t i = 0; i < packet_size; ++i) valid[i] = i < count ? -1 : 0;
+    return valid;
+}
+
+RTCIntersectContext context_of(RTCIntersectContextFlags flags) {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = flags;
+    return context;
+}
+
 struct PlacedObject {
     ObjectGeometry const* object;
     Eigen::Affine3f to_world, to_object;
@@ -203,6 +254,73 @@ struct Accelerator::Implementation {
             attach(s, g);
         }
     }
+
+    // What Embree found at `distance` along a ray, as a point of a surface.
+    void describe(Ray const& ray, float distance, RTCHit const& embree_hit, Hit& hit) const {
+        hit.distance = distance;
+        hit.primitive = embree_hit.primID;
+        bool const in_instance = embree_hit.instID[0] != RTC_INVALID_GEOMETRY_ID;
+        PlacedObject const* const placed = in_instance ? &instances[embree_hit.instID[0] - first_instance] : nullptr;
+        hit.shape = placed ? &placed->object->shapes[embree_hit.geomID] : &(*shapes)[embree_hit.geomID];
+        Vector on_ray = ray.origin + hit.distance * ray.direction;
+        if (placed) on_ray = placed->to_object * on_ray;
+        hit.point =
+            std::visit([&](auto const& g) { return surface_point(g, on_ray, embree_hit); }, hit.shape->geometry);
+        if (hit.shape->flipped) flip(hit.point);
+        if (placed) {
+            // Normals are covectors: they go by the inverse transpose.
+            auto const normal_map = placed->to_object.linear().transpose();
+            hit.point.position = placed->to_world * hit.point.position;
+            hit.point.geometric_normal = (normal_map * hit.point.geometric_normal).normalized();
+            hit.point.normal = (normal_map * hit.point.normal).normalized();
+        }
+    }
+
+    void closest_one(ClosestQuery& query, RayStatistics& statistics) const {
+        RTCRayHit rh;
+        rh.ray = to_embree(*query.ray);
+        rh.hit.geomID = rh.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+        RTCIntersectContext context = context_of(RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT);
+        {
+            Stopwatch const watch(statistics);
+            rtcIntersect1(scene, &context, &rh);
+        }
+        query.found = rh.hit.geomID != RTC_INVALID_GEOMETRY_ID;
+        if (query.found) describe(*query.ray, rh.ray.tfar, rh.hit, *query.hit);
+    }
+
+    void closest_packet(std::span<ClosestQuery> queries, RayStatistics& statistics) const {
+        RTCRayHit8 rh;
+        for (std::size_t i = 0; i < packet_size; ++i) {
+            set_lane(rh.ray, i, *queries[std::min(i, queries.size() - 1)].ray);
+            rh.hit.geomID[i] = rh.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+        }
+        alignas(32) auto const valid = valid_lanes(queries.size());
+        RTCIntersectContext context = context_of(RTC_INTERSECT_CONTEXT_FLAG_COHERENT);
+        {
+            Stopwatch const watch(statistics);
+            rtcIntersect8(valid.data(), scene, &context, &rh);
+        }
+        auto* const hits = reinterpret_cast<RTCHitN*>(&rh.hit);
+        for (std::size_t i = 0; i < queries.size(); ++i) {
+            queries[i].found = rh.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
+            if (queries[i].found)
+                describe(*queries[i].ray, rh.ray.tfar[i],
+                         rtcGetHitFromHitN(hits, packet_size, static_cast<unsigned>(i)), *queries[i].hit);
+        }
+    }
+
+    void occluded_packet(std::span<ShadowQuery> queries, RayStatistics& statistics) const {
+        RTCRay8 r;
+        for (std::size_t i = 0; i < packet_size; ++i) set_lane(r, i, queries[std::min(i, queries.size() - 1)].ray);
+        alignas(32) auto const valid = valid_lanes(queries.size());
+        RTCIntersectContext context = context_of(RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT);
+        {
+            Stopwatch const watch(statistics);
+            rtcOccluded8(valid.data(), scene, &context, &r);
+        }
+        for (std::size_t i = 0; i < queries.size(); ++i) queries[i].occluded = r.tfar[i] < 0;
+    }
 };
 
 Accelerator::Accelerator(std::vector<Shape> const& shapes, std::vector<ObjectGeometry> const& objects,
@@ -237,74 +355,35 @@ Accelerator::~Accelerator() = default;
 Accelerator::Accelerator(Accelerator&&) noexcept = default;
 
 std::optional<Hit> Accelerator::closest(Ray const& ray, RayStatistics& statistics) const {
-    Implementation const& self = *implementation_;
-    RTCRayHit rh;
-    rh.ray = {ray.origin.x(),
-              ray.origin.y(),
-              ray.origin.z(),
-              ray.t_min,
-              ray.direction.x(),
-              ray.direction.y(),
-              ray.direction.z(),
-              0,
-              ray.t_max,
-              ~0u,
-              0,
-              0};
-    rh.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    rh.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    {
-        Stopwatch const watch(statistics);
-        rtcIntersect1(self.scene, &context, &rh);
-    }
-    ++statistics.closest_rays;
-    if (statistics.recording) statistics.recording->push_back({ray, false});
-    if (rh.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-
     Hit hit;
-    hit.distance = rh.ray.tfar;
-    hit.primitive = rh.hit.primID;
-    bool const in_instance = rh.hit.instID[0] != RTC_INVALID_GEOMETRY_ID;
-    PlacedObject const* const placed = in_instance ? &self.instances[rh.hit.instID[0] - self.first_instance] : nullptr;
-    hit.shape = placed ? &placed->object->shapes[rh.hit.geomID] : &(*self.shapes)[rh.hit.geomID];
-    Vector on_ray = ray.origin + hit.distance * ray.direction;
-    if (placed) on_ray = placed->to_object * on_ray;
-    hit.point = std::visit([&](auto const& g) { return surface_point(g, on_ray, rh.hit); }, hit.shape->geometry);
-    if (hit.shape->flipped) flip(hit.point);
-    if (placed) {
-        // Normals are covectors: they go by the inverse transpose.
-        auto const normal_map = placed->to_object.linear().transpose();
-        hit.point.position = placed->to_world * hit.point.position;
-        hit.point.geometric_normal = (normal_map * hit.point.geometric_normal).normalized();
-        hit.point.normal = (normal_map * hit.point.normal).normalized();
-    }
-    return hit;
+    ClosestQuery query{&ray, &hit};
+    closest({&query, 1}, Coherence::none, statistics);
+    return query.found ? std::optional(hit) : std::nullopt;
+}
+
+void Accelerator::closest(std::span<ClosestQuery> queries, Coherence coherence, RayStatistics& statistics) const {
+    statistics.closest_rays += queries.size();
+    if (statistics.recording)
+        for (ClosestQuery const& q : queries) statistics.recording->push_back({*q.ray, false});
+    if (coherence == Coherence::none)
+        for (ClosestQuery& q : queries) implementation_->closest_one(q, statistics);
+    else
+        for (; !queries.empty(); queries = queries.subspan(std::min(packet_size, queries.size())))
+            implementation_->closest_packet(queries.first(std::min(packet_size, queries.size())), statistics);
 }
 
 bool Accelerator::occluded(Ray const& ray, RayStatistics& statistics) const {
-    RTCRay r{ray.origin.x(),
-             ray.origin.y(),
-             ray.origin.z(),
-             ray.t_min,
-             ray.direction.x(),
-             ray.direction.y(),
-             ray.direction.z(),
-             0,
-             ray.t_max,
-             ~0u,
-             0,
-             0};
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    {
-        Stopwatch const watch(statistics);
-        rtcOccluded1(implementation_->scene, &context, &r);
-    }
-    ++statistics.shadow_rays;
-    if (statistics.recording) statistics.recording->push_back({ray, true});
-    return r.tfar < 0;
+    ShadowQuery query{ray};
+    occluded({&query, 1}, statistics);
+    return query.occluded;
+}
+
+void Accelerator::occluded(std::span<ShadowQuery> queries, RayStatistics& statistics) const {
+    statistics.shadow_rays += queries.size();
+    if (statistics.recording)
+        for (ShadowQuery const& q : queries) statistics.recording->push_back({q.ray, true});
+    for (; !queries.empty(); queries = queries.subspan(std::min(packet_size, queries.size())))
+        implementation_->occluded_packet(queries.first(std::min(packet_size, queries.size())), statistics);
 }
 
 Vector Accelerator::lower_bound() const {
@@ -318,27 +397,5 @@ Vector Accelerator::upper_bound() const {
     return b.lower_x <= b.upper_x ? Vector(b.upper_x, b.upper_y, b.upper_z) : Vector(0, 0, 0);
 }
 void* Accelerator::embree_scene() const { return implementation_->scene; }
-
-namespace {
-
-// 64 units in the last place of the largest coordinate (a point computed from barycentrics errs by 3 to 20), plus
-// Embree's own uncertainty for points near the origin.
-Vector off_surface(SurfacePoint const& point, Direction const& direction) {
-    float const largest = std::max(point.position.cwiseAbs().maxCoeff(), 1e-4f);  // m
-    float const offset = 64 * std::numeric_limits<float>::epsilon() * largest;
-    float const side = direction.dot(point.geometric_normal) >= 0 ? offset : -offset;
-    return point.position + side * point.geometric_normal;
-}
-
-}  // namespace
-
-Ray spawn_ray(SurfacePoint const& point, Direction const& direction) {
-    return {off_surface(point, direction), direction};
-}
-
-Ray spawn_shadow_ray(SurfacePoint const& point, Direction const& direction, float distance) {
-    constexpr float shortening = 1e-4f;  // relative: keeps the light's own surface out
-    return {off_surface(point, direction), direction, 0, distance * (1 - shortening)};
-}
 
 }  // namespace iride

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Diffuse emitters on shapes.
+#include <array>
+
+#include "base/simd.h"
 #include "base/spherical.h"
 #include "scene/light.h"
 
@@ -31,18 +34,19 @@ class AreaLight : public Light {
         return facing > 0 || (facing < 0 && strength_.emitter.two_sided);
     }
 
-    // The place at d from the shaded point, found with the given density; it shines.
-    std::optional<LightSample> at(Vector const& d, Wavelengths const& wavelengths, PerSteradian density) const {
+    // Answer with the place at d from the asking point, found with the given density; it shines.
+    void put(LightRequest& r, Vector const& d, PerSteradian density) const {
         float const distance = d.norm();
-        if (!(distance > 0) || !(density.value > 0) || !(density.value < infinity)) return std::nullopt;
-        return LightSample{d / distance, distance, strength_.emitter.radiance.at(wavelengths), density};
+        if (distance > 0 && density.value > 0 && density.value < infinity)
+            r.sample.emplace(d / distance, distance, strength_.emitter.radiance.at(*r.wavelengths), density);
     }
 
     // A point of the surface with its outward normal, found with the given density.
     std::optional<LightSample> towards(Vector const& from, Vector const& point, Direction const& outward,
                                        Wavelengths const& wavelengths, PerSteradian density) const {
-        Vector const d = point - from;
-        return shines(d, outward) ? at(d, wavelengths, density) : std::nullopt;
+        LightRequest request{from, {}, &wavelengths};
+        if (shines(point - from, outward)) put(request, point - from, density);
+        return request.sample;
     }
 
     static PerSteradian area_density(float area, Vector const& from, Vector const& point, Direction const& normal) {
@@ -78,7 +82,8 @@ class SphereLight final : public AreaLight {
         Vector const point = from + (along - std::sqrt(std::max(0.0f, half_chord2))) * wi;
         Direction const n = (point - sphere_.centre).normalized();
         if (!shines(wi, n)) return std::nullopt;
-        return LightSample{wi, (point - from).norm(), strength_.emitter.radiance.at(wavelengths), cone_density(height)};
+        return std::optional<LightSample>(std::in_place, wi, (point - from).norm(),
+                                          strength_.emitter.radiance.at(wavelengths), cone_density(height));
     }
     PerSteradian density(Vector const& from, SurfacePoint const& on, std::uint32_t) const override {
         if (outside(from)) return cone_density(cone_height(from));
@@ -106,22 +111,48 @@ class RectangleLight final : public AreaLight {
                                            quad.corner[3] - quad.corner[0])) {}
 
     std::optional<LightSample> sample(Vector const& from, Wavelengths const& wavelengths, Sample2 u) const override {
-        if (!shines(rectangle_.corner - from, rectangle_.normal)) return std::nullopt;
-        SphericalRectangle const seen(rectangle_, from);
-        if (seen.solid_angle() > smallest_solid_angle)
-            return at(seen.sample(u), wavelengths, PerSteradian(1 / seen.solid_angle()));
-        Vector const point =
-            rectangle_.corner + u.x * rectangle_.width * rectangle_.x + u.y * rectangle_.height * rectangle_.y;
-        return towards(from, point, rectangle_.normal, wavelengths,
-                       area_density(static_cast<float>(area_), from, point, rectangle_.normal));
+        LightRequest request{from, u, &wavelengths};
+        answer({&request, 1});
+        return request.sample;
+    }
+    void answer(std::span<LightRequest> requests) const override {
+        for (std::size_t first = 0; first < requests.size(); first += real_lanes)
+            answer_eight(requests.subspan(first, std::min<std::size_t>(real_lanes, requests.size() - first)));
     }
     PerSteradian density(Vector const& from, SurfacePoint const& on, std::uint32_t) const override {
-        SphericalRectangle const seen(rectangle_, from);
+        SphericalRectangle<float> const seen(rectangle_, {from.x(), from.y(), from.z()});
         if (seen.solid_angle() > smallest_solid_angle) return PerSteradian(1 / seen.solid_angle());
         return area_density(static_cast<float>(area_), from, on.position, rectangle_.normal);
     }
 
   private:
+    // At most eight requests, side by side in registers.
+    void answer_eight(std::span<LightRequest> requests) const {
+        Real8 x{}, y{}, z{}, u{}, v{};
+        for (std::size_t i = 0; i < requests.size(); ++i) {
+            LightRequest const& r = requests[i];
+            x[i] = r.from.x(), y[i] = r.from.y(), z[i] = r.from.z(), u[i] = r.u.x, v[i] = r.u.y;
+        }
+        SphericalRectangle<Real8> const seen(rectangle_, {x, y, z});
+        Real8 const solid_angle = seen.solid_angle();
+        std::array<Real8, 3> const d = seen.sample(u, v);
+        for (std::size_t i = 0; i < requests.size(); ++i) {
+            LightRequest& r = requests[i];
+            r.sample.reset();
+            if (!shines(rectangle_.corner - r.from, rectangle_.normal)) continue;
+            if (solid_angle[i] > smallest_solid_angle)
+                put(r, {d[0][i], d[1][i], d[2][i]}, PerSteradian(1 / solid_angle[i]));
+            else
+                sample_area(r);
+        }
+    }
+
+    void sample_area(LightRequest& r) const {
+        Vector const point =
+            rectangle_.corner + r.u.x * rectangle_.width * rectangle_.x + r.u.y * rectangle_.height * rectangle_.y;
+        put(r, point - r.from, area_density(static_cast<float>(area_), r.from, point, rectangle_.normal));
+    }
+
     Rectangle rectangle_;
 };
 

@@ -19,7 +19,7 @@ class SpotLight final : public Light {
         float const share = falloff(-wi.dot(cone_.axis));
         if (share == 0) return std::nullopt;
         Radiance const arriving((intensity_.at(wavelengths) * (share / square(distance))).lane);
-        return LightSample{wi, distance, arriving, std::nullopt};
+        return std::optional<LightSample>(std::in_place, wi, distance, arriving, std::nullopt);
     }
     // Intensity times the solid angle of the cone's middle.
     double power(double) const override {
@@ -46,7 +46,8 @@ class DistantLight final : public Light {
         : wi_(-travel), irradiance_(std::move(irradiance)), luminance_(luminance) {}
 
     std::optional<LightSample> sample(Vector const&, Wavelengths const& wavelengths, Sample2) const override {
-        return LightSample{wi_, infinity, Radiance(irradiance_.at(wavelengths).lane), std::nullopt};
+        return std::optional<LightSample>(std::in_place, wi_, infinity, Radiance(irradiance_.at(wavelengths).lane),
+                                          std::nullopt);
     }
     double power(double scene_radius) const override { return luminance_ * pi_double * square(scene_radius); }
 

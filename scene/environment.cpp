@@ -13,7 +13,8 @@ class ConstantEnvironment final : public Light {
     ConstantEnvironment(Emission radiance, double luminance) : radiance_(std::move(radiance)), luminance_(luminance) {}
 
     std::optional<LightSample> sample(Vector const&, Wavelengths const& wavelengths, Sample2 u) const override {
-        return LightSample{to_sphere(u), infinity, radiance_.at(wavelengths), uniform_sphere_density};
+        return std::optional<LightSample>(std::in_place, to_sphere(u), infinity, radiance_.at(wavelengths),
+                                          uniform_sphere_density);
     }
     Radiance arriving(Direction const&, Wavelengths const& wavelengths) const override {
         return radiance_.at(wavelengths);
@@ -47,8 +48,8 @@ class PictureEnvironment final : public Light {
         float const polar = pi * p.y, azimuth = 2 * pi * (p.x - 0.5f) + picture_.rotation_rad, sine = std::sin(polar);
         if (!(p.density > 0) || !(sine > 0)) return std::nullopt;
         Direction const wi(sine * std::sin(azimuth), std::cos(polar), -sine * std::cos(azimuth));
-        return LightSample{wi, infinity, radiance(p.x, p.y, wavelengths),
-                           PerSteradian(p.density / (2 * pi * pi * sine))};
+        return std::optional<LightSample>(std::in_place, wi, infinity, radiance(p.x, p.y, wavelengths),
+                                          PerSteradian(p.density / (2 * pi * pi * sine)));
     }
     Radiance arriving(Direction const& wi, Wavelengths const& wavelengths) const override {
         auto const [x, y] = place(wi);

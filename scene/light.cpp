@@ -3,6 +3,9 @@
 
 namespace iride {
 
+void Light::answer(std::span<LightRequest> requests) const {
+    for (LightRequest& r : requests) r.sample = sample(r.from, *r.wavelengths, r.u);
+}
 Radiance Light::emitted(SurfacePoint const&, Direction const&, Wavelengths const&) const { return {}; }
 PerSteradian Light::density(Vector const&, SurfacePoint const&, std::uint32_t) const { return {}; }
 Radiance Light::arriving(Direction const&, Wavelengths const&) const { return {}; }
@@ -17,13 +20,6 @@ LightSet::LightSet(std::vector<std::unique_ptr<Light>> lights, double scene_radi
         if (lights_[i]->is_environment()) environments_.push_back(static_cast<int>(i));
     }
     if (total > 0) by_power_ = DiscreteDistribution(power);
-}
-
-std::optional<LightSet::Choice> LightSet::choose_by_power(float u) const {
-    if (by_power_.size() == 0) return std::nullopt;
-    auto const choice = by_power_.sample(u);
-    if (choice.probability <= 0) return std::nullopt;
-    return Choice{choice.index, choice.probability, choice.rest};
 }
 
 }  // namespace iride

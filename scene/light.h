@@ -4,8 +4,10 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
+#include "base/check.h"
 #include "base/distribution.h"
 #include "base/warp.h"
 #include "materials/material.h"
@@ -20,11 +22,21 @@ struct LightSample {
     std::optional<PerSteradian> density;  // absent for a Dirac light (point, spot, distant)
 };
 
+// A point that asks a light for a sample, and the answer.
+struct LightRequest {
+    Vector from;
+    Sample2 u;
+    Wavelengths const* wavelengths;
+    std::optional<LightSample> sample = {};
+};
+
 class Light {
   public:
     virtual ~Light() = default;
 
     virtual std::optional<LightSample> sample(Vector const& from, Wavelengths const& wavelengths, Sample2 u) const = 0;
+    // The same for several points; one after the other, unless a light knows better.
+    virtual void answer(std::span<LightRequest> requests) const;
 
     // Radiance emitted at `on` (a point of this light's shape) along `wo`, away from the surface, and the density with
     // which sample(from) would have found that point, on triangle `primitive` of the shape.
@@ -88,16 +100,17 @@ class LightSet {
         float probability;
         float rest;
     };
-    // Probability 0 never comes out; a set whose lights are all dark chooses nothing.
-    std::optional<Choice> choose(float u) const {
-        if (by_power_.size() == 1) return Choice{0, 1, u};
-        return choose_by_power(u);
+    // Whether any light has power: only then may one be chosen.
+    bool has_power() const { return by_power_.size() > 0; }
+    Choice choose(float u) const {
+        check(has_power(), "a light that is chosen has power");
+        if (by_power_.size() == 1) return {0, 1, u};
+        auto const choice = by_power_.sample(u);
+        return {choice.index, choice.probability, choice.rest};
     }
-    float probability(int index) const { return by_power_.size() > 0 ? by_power_.probability(index) : 0; }
+    float probability(int index) const { return has_power() ? by_power_.probability(index) : 0; }
 
   private:
-    std::optional<Choice> choose_by_power(float u) const;
-
     std::vector<std::unique_ptr<Light>> lights_;
     std::vector<int> environments_;
     DiscreteDistribution by_power_;
