@@ -12,7 +12,10 @@ namespace {
 
 std::string joined(std::vector<Diagnostic> const& diagnostics) {
     std::string all;
-    for (Diagnostic const& d : diagnostics) all += (all.empty() ? "" : "\n") + d.text();
+    for (Diagnostic const& d : diagnostics) {
+        if (!all.empty()) all += '\n';
+        all += d.text();
+    }
     return all;
 }
 
@@ -49,7 +52,7 @@ std::string nearest_name(std::string_view name, std::vector<std::string> const& 
     constexpr std::size_t longest_name = 64;  // longer ones are no slip of the pen, and the table grows as the product
     if (name.size() > longest_name) return {};
     std::string best;
-    std::size_t best_distance = std::max<std::size_t>(1, name.size() / 3) + 1;
+    std::size_t best_distance = std::min(std::max<std::size_t>(1, name.size() / 3) + 1, name.size());
     for (std::string const& candidate : candidates) {
         std::size_t const distance = edit_distance(name, candidate);
         if (distance < best_distance) best = candidate, best_distance = distance;

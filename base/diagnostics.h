@@ -36,7 +36,7 @@ class InputError : public std::runtime_error {
 };
 
 // The candidate with the smallest edit distance (Levenshtein, transpositions counting once) to `name`, if near enough
-// to be a slip of the pen: at most a third of its length, at least 1. Empty if there is none.
+// to be a slip of the pen: at most a third of its length, at least 1, but not all of it. Empty if there is none.
 std::string nearest_name(std::string_view name, std::vector<std::string> const& candidates);
 
 // "; did you mean 'x'?" or, without a near candidate, "; allowed: a, b, c".

@@ -57,7 +57,7 @@ class PictureEnvironment final : public Light {
     }
     PerSteradian arriving_density(Direction const& wi) const override {
         auto const [x, y] = place(wi);
-        float const sine = std::sqrt(std::max(0.0f, 1 - square(wi.y())));
+        float const sine = std::hypot(wi.x(), wi.z());  // no 1 - y^2: it loses its digits at the poles
         return PerSteradian(sine > 0 ? distribution_.density(x, y) / (2 * pi * pi * sine) : 0);
     }
     double power(double scene_radius) const override {
@@ -72,7 +72,7 @@ class PictureEnvironment final : public Light {
     };
     Place place(Direction const& wi) const {
         float const turn = (std::atan2(wi.x(), -wi.z()) - picture_.rotation_rad) / (2 * pi) + 0.5f;
-        return {turn - std::floor(turn), std::acos(std::clamp(wi.y(), -1.0f, 1.0f)) * inverse_pi};
+        return {turn - std::floor(turn), std::atan2(std::hypot(wi.x(), wi.z()), wi.y()) * inverse_pi};
     }
     std::size_t index(int x, int y) const {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(picture_.width) + static_cast<std::size_t>(x);

@@ -12,6 +12,19 @@ void ReadContext::error(JsonValue const& at, std::string const& key_path, std::s
     diagnostics.push_back({{file.string(), at.line, at.column}, key_path, message});
 }
 
+std::string Remark::text() const {
+    std::string const more = key_paths.size() > 1 ? fmt::format(" and {} more", key_paths.size() - 1) : "";
+    return key_paths.front() + more + ": " + message;
+}
+
+void ReadContext::remark(std::string const& key_path, std::string const& message) {
+    auto const known = std::ranges::find(remarks, message, &Remark::message);
+    if (known == remarks.end())
+        remarks.push_back({message, {key_path}});
+    else
+        known->key_paths.push_back(key_path);
+}
+
 void ReadContext::guarded(JsonValue const& at, std::string const& key_path, std::function<void()> const& read) {
     try {
         read();

@@ -16,14 +16,25 @@
 
 namespace iride {
 
+// What is worth saying but no error, with every place it holds for.
+struct Remark {
+    std::string message;
+    std::vector<std::string> key_paths;
+
+    // "first.key.path and 3 more: message"
+    std::string text() const;
+};
+
 // Where a file's diagnostics go.
 struct ReadContext {
     std::filesystem::path file, folder;
     std::vector<Diagnostic> diagnostics;
-    std::vector<std::string> remarks;
+    std::vector<Remark> remarks;
     std::vector<std::filesystem::path> files_read;
 
     void error(JsonValue const& at, std::string const& key_path, std::string const& message);
+    // The same message from several places is one remark.
+    void remark(std::string const& key_path, std::string const& message);
     // Run `read`; an InputError of another file or library becomes a diagnostic here.
     void guarded(JsonValue const& at, std::string const& key_path, std::function<void()> const& read);
 };

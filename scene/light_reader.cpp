@@ -3,8 +3,10 @@
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <fstream>
 
 #include "colour/rgb_to_spectrum.h"
 #include "scene/readers.h"
@@ -15,12 +17,27 @@ namespace {
 
 Vector metres(SceneBuilder const& b, VectorDouble const& v) { return (v * b.length_unit_m).cast<float>(); }
 
+// OpenImageIO tries every format it knows on any file, some of them byte by byte: only what begins as OpenEXR or
+// Radiance HDR is handed to it.
+void check_picture_file(std::filesystem::path const& path) {
+    auto const fail = [&](std::string const& message) { return InputError({path.string()}, "", message); };
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(path, error)) throw fail("no such file");
+    constexpr std::uintmax_t largest_file = 1ull << 30;  // bytes
+    std::uintmax_t const size = std::filesystem::file_size(path, error);
+    if (size == 0) throw fail("the file is empty");
+    if (size > largest_file)
+        throw fail(fmt::format("has {} MiB, allowed: at most {} MiB", size >> 20, largest_file >> 20));
+    std::string start(4, '\0');
+    std::ifstream(path, std::ios::binary).read(start.data(), 4);
+    if (start != "\x76\x2f\x31\x01" && !start.starts_with("#?"))
+        throw fail("is neither an OpenEXR nor a Radiance HDR picture");
+}
+
 // A lat-long picture in linear Rec.709. Throws InputError.
 EnvironmentPicture read_picture(std::filesystem::path const& path, double scale, WavelengthGrid const& grid) {
-    auto const fail = [&](std::string const& message) -> InputError {
-        return InputError({path.string()}, "", message);
-    };
-    if (!std::filesystem::is_regular_file(path)) throw fail("no such file");
+    auto const fail = [&](std::string const& message) { return InputError({path.string()}, "", message); };
+    check_picture_file(path);
     auto const input = OIIO::ImageInput::open(path.string());
     if (!input) throw fail("not a readable picture: " + OIIO::geterror());
     OIIO::ImageSpec const spec = input->spec();
@@ -30,9 +47,20 @@ EnvironmentPicture read_picture(std::filesystem::path const& path, double scale,
         throw fail(
             fmt::format("found {} x {} pixels, allowed: 2 x 1 .. {} squared", spec.width, spec.height, largest_side));
     EnvironmentPicture picture{spec.width, spec.height, {}, {}, 0};
-    picture.texel.resize(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height));
-    if (!input->read_image(0, 0, 0, 3, OIIO::TypeDesc::FLOAT, picture.texel.data()))
-        throw fail("truncated or damaged: " + input->geterror());
+    // Piece by piece: memory grows only as far as the file proves to hold the picture.
+    auto const width = static_cast<std::size_t>(spec.width);
+    bool const tiled = spec.tile_width > 0;
+    int const piece = tiled ? spec.tile_height : 64;  // rows
+    for (int y = 0; y < spec.height; y += piece) {
+        int const end = std::min(spec.height, y + piece);
+        picture.texel.resize(width * static_cast<std::size_t>(end));
+        void* const rows = picture.texel.data() + width * static_cast<std::size_t>(y);
+        bool const read =
+            tiled ? input->read_tiles(0, 0, spec.x, spec.x + spec.width, spec.y + y, spec.y + end, spec.z, spec.z + 1,
+                                      0, 3, OIIO::TypeDesc::FLOAT, rows)
+                  : input->read_scanlines(0, 0, spec.y + y, spec.y + end, spec.z, 0, 3, OIIO::TypeDesc::FLOAT, rows);
+        if (!read) throw fail("truncated or damaged: " + input->geterror());
+    }
     double brightest = 0;
     for (auto& texel : picture.texel)
         for (float& c : texel) {

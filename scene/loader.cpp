@@ -192,7 +192,7 @@ std::unique_ptr<Scene> load_scene(std::filesystem::path const& path) {
     SceneBuilder builder{context, *scene, 1, {}, {}};
     read_everything(builder, root);
     if (!context.diagnostics.empty()) throw InputError(std::move(context.diagnostics));
-    scene->remarks = std::move(context.remarks);
+    for (Remark const& remark : context.remarks) scene->remarks.push_back(remark.text());
     scene->hash = hash_files(context.files_read);
     scene->accelerator = std::make_unique<Accelerator>(scene->shapes, scene->objects, scene->instances);
     scene->lights = LightSet(std::move(builder.lights), scene->radius());

@@ -16,6 +16,8 @@ namespace iride {
 
 namespace {
 
+constexpr std::uintmax_t largest_file = 1ull << 30;  // bytes; a binary PLY of some 20 million vertices
+
 [[noreturn]] void fail_file(std::filesystem::path const& path, std::string message) {
     throw InputError({path.string()}, "", std::move(message));
 }
@@ -28,6 +30,8 @@ std::string read_bytes(std::filesystem::path const& path) {
     auto const size = std::filesystem::file_size(path, error);
     if (error) fail_file(path, "cannot be read: " + error.message());
     if (size == 0) fail_file(path, "the file is empty");
+    if (size > largest_file)
+        fail_file(path, fmt::format("has {} MiB, allowed: at most {} MiB", size >> 20, largest_file >> 20));
     std::ifstream stream(path, std::ios::binary);
     std::string bytes(size, '\0');
     if (!stream.read(bytes.data(), static_cast<std::streamsize>(size)))

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 
 #include "scene/readers.h"
 
@@ -108,10 +109,12 @@ std::optional<Mesh> inline_mesh(SceneBuilder& b, Fields& f) {
         auto const t = read_vector(b.context, (*triangles)[i], path);
         if (!t) return std::nullopt;
         auto const count = static_cast<double>(vertices->size());
-        if (!(t->minCoeff() >= 0 && t->maxCoeff() < count)) {
-            b.context.error((*triangles)[i], path, fmt::format("vertex numbers are in 0 .. {}", count - 1));
-            return std::nullopt;
-        }
+        for (double const v : *t)
+            if (!(v >= 0 && v < count && v == std::floor(v))) {
+                b.context.error((*triangles)[i], path,
+                                fmt::format("found vertex {}, allowed: whole numbers 0 .. {}", v, count - 1));
+                return std::nullopt;
+            }
         mesh.triangle.push_back({static_cast<std::uint32_t>(t->x()), static_cast<std::uint32_t>(t->y()),
                                  static_cast<std::uint32_t>(t->z())});
     }

@@ -140,7 +140,7 @@ void check_spectrum(SceneBuilder& b, JsonValue const& at, std::string const& pat
                                 "\"extrapolate\"}");
             return;
         }
-        b.context.remarks.push_back(path + ": " + gap + ": outside, " + outside_text(s.outside()));
+        b.context.remark(path, gap + ": outside, " + outside_text(s.outside()));
     }
     double const least = s.smallest(range), most = s.largest(range);
     if (!(least >= kind.least && most <= kind.most))

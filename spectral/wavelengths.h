@@ -35,12 +35,12 @@ class WavelengthSampler {
     // range is reached.
     WavelengthSampler(WavelengthRange const& range, SpectralFunction const& importance, WavelengthGrid const& grid);
 
+    static constexpr int segment_count = 1024;  // a multiple of every lane count, so that lanes share the fraction
+
     Wavelengths sample(float u) const;
     WavelengthRange const& range() const { return range_; }
 
   private:
-    static constexpr int segment_count = 1024;  // a multiple of every lane count, so that lanes share the fraction
-
     WavelengthRange range_;
     int grid_first_nm_, grid_cells_;
     std::vector<float> knot_nm_;  // [segment_count + 1]

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A file is written whole or not at all, and what cannot be written is known before.
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 #include <thread>
 
@@ -81,8 +83,9 @@ TEST_CASE("a place where nothing can be written is refused with its reason", "[i
     test::TemporaryFolder const folder;
     fs::path const in = folder.path();
     fs::path const file = folder.write("file", "x");
-    CHECK_THAT(refusal(in / "none" / "a.exr"), Contains("the folder '" + (in / "none").string() + "' does not exist"));
-    CHECK_THAT(refusal(file / "a.exr"), Contains("'" + file.string() + "' is not a folder"));
+    CHECK_THAT(refusal(in / "none" / "a.exr"),
+               Contains(fmt::format("the folder '{}' does not exist", (in / "none").string())));
+    CHECK_THAT(refusal(file / "a.exr"), Contains(fmt::format("'{}' is not a folder", file.string())));
     CHECK_THAT(refusal(in), Contains("cannot be written: it is a folder"));
     CHECK_THAT(refusal(in / ""), Contains("it names no file"));
     CHECK_THAT(refusal("/dev/null"), Contains("it is not a regular file"));          // root could rename onto it

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // JSON with places [RFC 8259]: line and column count characters from 1; every error is one line "file:line:column:
 // ...".
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 #include <random>
 
@@ -60,7 +62,7 @@ class RandomText {
             for (auto i = 0ul, n = random_() % 4; i < n; ++i) {
                 space();
                 if (i > 0) put(","), space();
-                if (object) put("\"" + std::to_string(i) + "\""), space(), put(":"), space();
+                if (object) put(fmt::format("\"{}\"", i)), space(), put(":"), space();
                 value(depth + 1);
             }
             space();
@@ -154,7 +156,8 @@ TEST_CASE("what is no JSON is refused with its place and without the library's p
         CHECK_THAT(error_of(text), Contains("a.json:1:") && Contains("syntax error"));
         CHECK_THAT(error_of(text), !Contains("json.exception") && !Contains("parse error at"));
     }
-    CHECK(error_of("[\"" + std::string(1 << 20, 'x')).size() < 400);  // the text read last is not quoted whole
+    CHECK(error_of(fmt::format("[\"{}", std::string(1 << 20, 'x'))).size() <
+          400);  // the text read last is not quoted whole
 }
 
 TEST_CASE("nesting deeper than 64 levels is refused", "[input]") {

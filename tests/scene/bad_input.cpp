@@ -69,7 +69,15 @@ TEST_CASE("meshes with NaN vertices or bad indices are refused", "[input]") {
                Contains("a.obj"));
     CHECK_THAT(
         refusal(shape(R"("type": "mesh", "vertices": [[0,0,0],[1,0,0],[0,1,0]], "triangles": [[0,1,3]], )" + grey)),
-        Contains("triangles[0]: vertex numbers are in 0 .. 2"));
+        Contains("triangles[0]: found vertex 3, allowed: whole numbers 0 .. 2"));
+}
+TEST_CASE("vertex numbers of an inline mesh are whole", "[input]") {
+    CHECK_THAT(
+        refusal(shape(R"("type": "mesh", "vertices": [[0,0,0],[1,0,0],[0,1,0]], "triangles": [[0,1,1.5]], )" + grey)),
+        Contains("shapes[0].triangles[0]: found vertex 1.5, allowed: whole numbers 0 .. 2"));
+    CHECK_THAT(
+        refusal(shape(R"("type": "mesh", "vertices": [[0,0,0],[1,0,0],[0,1,0]], "triangles": [[0,1,-0.5]], )" + grey)),
+        Contains("found vertex -0.5"));
 }
 TEST_CASE("emitters without area are refused", "[input]") {
     CHECK_THAT(
@@ -95,6 +103,18 @@ TEST_CASE("reflectances outside 0 .. 1 are refused", "[input]") {
 TEST_CASE("an n, k table must cover the render range", "[input]") {
     CHECK_THAT(refusal(with(R"("materials": { "a": { "type": "dielectric", "ior": "SF11" } })")),
                Contains("'SF11' is given on 390..2500 nm, the render range is 360..830 nm") && Contains("outside"));
+}
+TEST_CASE("one short table of many places is one remark, the first place named", "[input]") {
+    std::string const paint = R"("material": { "type": "diffuse", "reflectance": "paint.csv" })";
+    std::string shapes;
+    for (int i = 0; i < 3; ++i)
+        shapes += (i ? ", " : "") + (R"({ "type": "sphere", "centre": [0,0,0], "radius": 1, )" + paint + "}");
+    test::TemporaryFolder const folder;
+    folder.write("paint.csv", "400,.1\n700,.2\n");
+    auto const scene = load_scene(folder.write("scene.json", with("\"shapes\": [" + shapes + "]")));
+    REQUIRE(scene->remarks.size() == 1);
+    CHECK_THAT(scene->remarks[0], Contains("shapes[0].material.reflectance and 2 more: 'paint.csv' is given on") &&
+                                      Contains("400..700 nm") && Contains("its end value is held"));
 }
 TEST_CASE("singular transforms are refused", "[input]") {
     CHECK_THAT(

@@ -3,6 +3,8 @@
 // outwards, however it is written; and what is wrong with a file is said where it stands.
 // Shown to fail: with corners 1 and 2 of append_polygon exchanged the volume is -1; without the byte swap the
 // big-endian cube has no finite area.
+#include <fmt/format.h>
+
 #include <unistd.h>
 #include <algorithm>
 #include <bit>
@@ -90,7 +92,7 @@ std::string cube_obj(std::function<std::string(int)> const& index) {
     text += "usemtl grey\ns off\n";
     for (auto const& face : cube_faces) {
         text += "f";
-        for (int const i : face) text += " " + index(i);
+        for (int const i : face) text += fmt::format(" {}", index(i));
         text += "  # a quad\r\n";
     }
     return text;
@@ -143,7 +145,7 @@ std::string cube_ascii() {
                 (i % 2 ? " 1 -7\n" : " 0\n");
     for (auto const& face : cube_faces) {
         text += "4";
-        for (int const i : face) text += " " + std::to_string(i);
+        for (int const i : face) text += fmt::format(" {}", i);
         text += " -1\n";
     }
     return text;

@@ -33,8 +33,35 @@ inline double chi_squared_tail(double statistic, int degrees) {
     return front * h;
 }
 
-// Directions on the sphere in cells of equal cos(theta) and phi: counts against the integral of a density. Cells with
-// an expectation below 5 are pooled. Returns the p-value.
+// Counts against expectations; what is expected fewer than 5 times is pooled.
+class ChiSquared {
+  public:
+    void add(double expected, double count) {
+        if (expected >= 5)
+            account(expected, count);
+        else
+            pooled_expected_ += expected, pooled_count_ += count;
+    }
+    double p_value() const {
+        ChiSquared all = *this;
+        if (pooled_expected_ >= 5)
+            all.account(pooled_expected_, pooled_count_);
+        else if (pooled_count_ > 25 + 5 * pooled_expected_)
+            return 0;  // counts where nothing can be
+        return chi_squared_tail(all.statistic_, all.cells_ - 1);
+    }
+
+  private:
+    void account(double expected, double count) {
+        statistic_ += square(count - expected) / expected;
+        ++cells_;
+    }
+
+    double statistic_ = 0, pooled_expected_ = 0, pooled_count_ = 0;
+    int cells_ = 0;
+};
+
+// Directions on the sphere in cells of equal cos(theta) and phi: counts against the integral of a density.
 class DirectionHistogram {
   public:
     explicit DirectionHistogram(int rows = 20, int columns = 40)
@@ -48,32 +75,20 @@ class DirectionHistogram {
 
     // density [1/sr], integrated by `n` x `n` small rules in every cell.
     double p_value(std::function<double(Direction const&)> const& density, int n = 16) const {
-        double statistic = 0, pooled_expected = 0, pooled_count = 0, expected_sum = 0;
-        int cells = 0;
-        auto const account = [&](double expected, double count) {
-            statistic += square(count - expected) / expected;
-            ++cells;
-        };
+        ChiSquared verdict;
+        double expected_sum = 0, counted = 0;
         for (int r = 0; r < rows_; ++r)
             for (int c = 0; c < columns_; ++c) {
                 double const expected = total_ * integral(density, r, c, n);
                 double const count = count_[static_cast<std::size_t>(r * columns_ + c)];
                 expected_sum += expected;
-                if (expected >= 5)
-                    account(expected, count);
-                else
-                    pooled_expected += expected, pooled_count += count;
+                counted += count;
+                verdict.add(expected, count);
             }
         double const lost = total_ - expected_sum;  // directions that cannot be
-        double counted = 0;
-        for (double k : count_) counted += k;
-        constexpr double quadrature_error = 2e-4;  // over a narrow lobe: no loss to speak of
-        if (lost > quadrature_error * total_) account(lost, total_ - counted);
-        if (pooled_expected >= 5)
-            account(pooled_expected, pooled_count);
-        else if (pooled_count > 25 + 5 * pooled_expected)
-            return 0;  // samples where there is no density
-        return chi_squared_tail(statistic, cells - 1);
+        constexpr double quadrature_error = 2e-4;   // over a narrow lobe: no loss to speak of
+        if (lost > quadrature_error * total_) verdict.add(lost, total_ - counted);
+        return verdict.p_value();
     }
     double integral_of(std::function<double(Direction const&)> const& density, int n = 16) const {
         double sum = 0;
