@@ -33,8 +33,13 @@ Xyz Observer::integrate(SpectralFunction const& radiance) const {
             radiance.integral(domain, zbar) * scale};
 }
 
+std::vector<std::string> const& observer_names() {
+    static std::vector<std::string> const names{"cie1931_2deg", "cie1964_10deg", "cie2015_2deg", "cie2015_10deg"};
+    return names;
+}
+
 Observer const& observer(std::string const& name) {
-    static std::vector<std::string> const known{"cie1931_2deg", "cie1964_10deg", "cie2015_2deg", "cie2015_10deg"};
+    std::vector<std::string> const& known = observer_names();
     static std::map<std::string, Observer> loaded;
     static std::mutex guard;
     if (std::ranges::find(known, name) == known.end())
@@ -49,7 +54,6 @@ SpectralFunction luminance_weighted(SpectralFunction const& radiance, double lum
 }
 
 double luminance_of_unit_Y(Observer const& observer) {
-    constexpr double maximum_luminous_efficacy = 683;  // lm/W, K_m
     return maximum_luminous_efficacy * observer.ybar_integral;
 }
 

@@ -23,14 +23,19 @@ struct Observer {
     Xyz integrate(SpectralFunction const& radiance) const;
 };
 
-// By name: "cie1931_2deg" (later others). Throws InputError for an unknown one. Read once, kept for the program's life.
+// By name, one of observer_names(): "cie1931_2deg", "cie1964_10deg" [ISO/CIE 11664-1], "cie2015_2deg", "cie2015_10deg"
+// [CIE 170-2]. Throws InputError for an unknown one. Read once, kept for the program's life.
 Observer const& observer(std::string const& name);
+std::vector<std::string> const& observer_names();
 inline Observer const& cie1931_2deg() { return observer("cie1931_2deg"); }
 
 // The factor that makes (integral of L ybar) / (integral of ybar) equal to `luminance`.
 SpectralFunction luminance_weighted(SpectralFunction const& radiance, double luminance, Observer const& observer);
 
-// Luminance of Y = 1 in cd m^-2: 683 lm/W times the integral of ybar. (K_m of ISO/CIE 23539, rounded as CIE does.)
+// K_m of ISO/CIE 23539, rounded as CIE does [lm/W].
+inline constexpr double maximum_luminous_efficacy = 683;
+
+// Luminance of Y = 1 in cd m^-2: K_m times the integral of ybar.
 double luminance_of_unit_Y(Observer const& observer);
 
 }  // namespace iride

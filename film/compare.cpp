@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/diagnostics.h"
-#include "colour/lab.h"
+#include "colour/difference.h"
 
 namespace iride {
 

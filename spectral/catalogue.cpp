@@ -76,7 +76,19 @@ TabulatedShape table_of(SpectrumFile const& file, std::string const& column) {
     if (found == file.column.end())
         throw InputError({file.path.string()}, "",
                          fmt::format("no column '{}'{}", column, suggestion(column, file.column_order)));
-    return {file.wavelength_nm, found->second};
+    return {file.wavelength_nm, found->second, false, file.summation};
+}
+
+Outside outside_of(SpectralQuantity quantity) {
+    switch (quantity) {
+        case SpectralQuantity::complex_index:
+            return Outside::error;
+        case SpectralQuantity::reflectance:
+        case SpectralQuantity::transmittance:
+            return Outside::hold;
+        default:
+            return Outside::zero;
+    }
 }
 
 }  // namespace
@@ -117,9 +129,7 @@ ComplexIndex load_complex_index(std::string const& name, std::filesystem::path c
 
 SpectralFunction load_spectrum(std::string const& name, SpectralQuantity quantity,
                                std::filesystem::path const& folder) {
-    Outside const outside = quantity == SpectralQuantity::complex_index ? Outside::error
-                            : quantity == SpectralQuantity::reflectance ? Outside::hold
-                                                                        : Outside::zero;
+    Outside const outside = outside_of(quantity);
     if (auto const entry = catalogue().find(name); entry != catalogue().end()) {
         if (!serves(entry->second.column, quantity)) fail(fmt::format("'{}' is no {}", name, described(quantity)));
         if (entry->second.column == "nk") fail(fmt::format("'{}' holds n and k, but one of them is wanted", name));
@@ -142,6 +152,22 @@ SpectralFunction load_spectrum(std::string const& name, SpectralQuantity quantit
                          fmt::format("holds {} columns: choose one as '{}:{}'", file.column_order.size(), name,
                                      file.column_order.front()));
     return SpectralFunction(table_of(file, column.empty() ? file.column_order.front() : column), outside, name);
+}
+
+std::vector<SpectralFunction> load_spectra(std::string const& name, SpectralQuantity quantity,
+                                           std::filesystem::path const& folder) {
+    std::vector<SpectralFunction> all;
+    if (std::filesystem::is_regular_file(folder / name) && !in_catalogue(name)) {
+        SpectrumFile const file = read_spectrum_file(folder / name);
+        if (file.column_order.size() > 1)
+            for (std::string const& column : file.column_order)
+                all.emplace_back(table_of(file, column), outside_of(quantity), column);
+    } else if (!in_catalogue(name)) {
+        for (std::string const& member : catalogue_names(quantity))
+            if (member.starts_with(name + ":")) all.push_back(load_spectrum(member, quantity));
+    }
+    if (all.empty()) all.push_back(load_spectrum(name, quantity, folder));
+    return all;
 }
 
 }  // namespace iride

@@ -26,10 +26,11 @@ struct SpectrumFile {
     std::map<std::string, std::vector<double>> column;  // e.g. "n", "k", "power", "white", "x", "y", "z"
     std::vector<std::string> column_order;              // as in the file
     std::vector<DispersionShape> formula;               // zero or one
+    Summation summation = Summation::interpolated;      // header line "summation"
 };
 
 // Read a spectrum file: our CSV (`# key: value` header), any table with or without a row of column names, separated by
-// commas, semicolons or blanks (.csv, .spd, .txt), a refractiveindex.info CSV ("wl,n" and "wl,k" blocks in micrometres)
+// commas, semicolons or blanks (.csv, .spd, .txt), a CGATS table (.ti3, .txt), a refractiveindex.info CSV ("wl,n" and "wl,k" blocks in micrometres)
 // or YAML (tabulated n, k, nk; formulas 1, 2 and 4) as it is pasted. Columns over different wavelengths meet where they
 // overlap; of a formula with a table of k the formula alone is taken. Throws InputError with file:line for anything
 // else: not a number, NaN, unsorted or duplicate wavelengths, a missing or repeated column, a formula without an index
@@ -49,5 +50,8 @@ bool in_catalogue(std::string const& name);
 ComplexIndex load_complex_index(std::string const& name, std::filesystem::path const& folder = {});
 SpectralFunction load_spectrum(std::string const& name, SpectralQuantity quantity,
                                std::filesystem::path const& folder = {});
+// Several at once: every column of a file, every name of a group of the catalogue ("colorchecker"), or one as above.
+std::vector<SpectralFunction> load_spectra(std::string const& name, SpectralQuantity quantity,
+                                           std::filesystem::path const& folder = {});
 
 }  // namespace iride

@@ -119,10 +119,10 @@ SpectralFunction SpectralFunction::with_outside(Outside outside) const {
 }
 
 double planck_radiance(double wavelength_nm, double temperature_K) {
-    constexpr double h = 6.62607015e-34, c = 299792458, k = 1.380649e-23;  // J s, m/s, J/K: exact, SI 2019
     double const lambda = wavelength_nm * 1e-9;
+    constexpr double c1L = 2 * planck_constant * speed_of_light * speed_of_light;
     // 1e-9: per metre of wavelength -> per nanometre.
-    return 1e-9 * 2 * h * c * c / std::pow(lambda, 5) / std::expm1(h * c / (lambda * k * temperature_K));
+    return 1e-9 * c1L / std::pow(lambda, 5) / std::expm1(second_radiation_constant / (lambda * temperature_K));
 }
 
 }  // namespace iride

@@ -32,11 +32,16 @@ struct ConstantShape {
     double value;
 };
 
+// How colorimetry sums a table: by linear interpolation to whole nanometres, or at its own wavelengths alone, which is how
+// CIE means the lamps with emission lines that it tabulates in bands of 5 nm (FL, HP).
+enum class Summation { interpolated, tabulated };
+
 // Piecewise linear through (nm[i], value[i]), nm strictly increasing; or, with `step`, constant value[i] on
 // [nm[i], nm[i+1]) with nm holding one entry more than value.
 struct TabulatedShape {
     std::vector<double> nm, value;
     bool step = false;
+    Summation summation = Summation::interpolated;
 };
 
 // Planck's law, spectral radiance [W m^-2 sr^-1 nm^-1], exact SI constants, index of the medium 1.
@@ -90,8 +95,13 @@ class SpectralFunction {
     std::string name_;
 };
 
-// Planck's law [W m^-2 sr^-1 nm^-1]: c1L / lambda^5 / (exp(c2 / (lambda T)) - 1), c1L = 2 h c^2, c2 = h c / k with the
-// exact h, c, k of the SI (2019).
+inline constexpr double planck_constant = 6.62607015e-34;    // J s, exact, SI 2019
+inline constexpr double speed_of_light = 299792458;          // m/s, exact
+inline constexpr double boltzmann_constant = 1.380649e-23;   // J/K, exact, SI 2019
+inline constexpr double second_radiation_constant =          // c2 = h c / k [m K]
+    planck_constant * speed_of_light / boltzmann_constant;
+
+// Planck's law [W m^-2 sr^-1 nm^-1]: c1L / lambda^5 / (exp(c2 / (lambda T)) - 1), c1L = 2 h c^2.
 double planck_radiance(double wavelength_nm, double temperature_K);
 
 }  // namespace iride

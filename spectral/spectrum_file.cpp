@@ -1,34 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reading spectrum files: our CSV, plain tables, and refractiveindex.info's CSV and YAML as they are pasted.
+// Reading spectrum files: our CSV, plain tables, and refractiveindex.info's CSV and YAML as they are pasted. CGATS tables
+// have a reader of their own.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <optional>
 #include <set>
 #include <sstream>
 
 #include "spectral/catalogue.h"
+#include "spectral/cgats.h"
+#include "spectral/table_text.h"
 
 namespace iride {
 
+using namespace table_text;
+
 namespace {
 
-constexpr std::uintmax_t largest_file = 64ull << 20;  // bytes
 constexpr double nm_per_micrometre = 1000;
-
-[[noreturn]] void fail(std::filesystem::path const& path, int line, std::string const& message) {
-    throw InputError({path.string(), line, line > 0 ? 1 : 0}, "", message);
-}
-
-std::string trimmed(std::string const& s) {
-    auto const first = s.find_first_not_of(" \t\r"), last = s.find_last_not_of(" \t\r");
-    return first == std::string::npos ? "" : s.substr(first, last - first + 1);
-}
 
 // Cells of a line, separated by semicolons if it has one (a comma is then no separator), else by commas, else by
 // blanks.
@@ -45,21 +39,6 @@ std::vector<std::string> cells(std::string const& line) {
     return result;
 }
 
-std::optional<double> to_number(std::string const& text) {
-    std::istringstream in(text);
-    in.imbue(std::locale::classic());
-    double x;
-    if (!(in >> x) || !(in >> std::ws).eof()) return std::nullopt;
-    return x;
-}
-
-double number(std::filesystem::path const& path, int line, std::string const& text) {
-    auto const x = to_number(text);
-    if (!x || !std::isfinite(*x))
-        fail(path, line, fmt::format("found '{}', but a finite number is wanted", text.substr(0, 40)));
-    return *x;
-}
-
 // Columns over the same wavelengths.
 struct Block {
     std::vector<std::string> names;
@@ -69,12 +48,7 @@ struct Block {
 
 void append_row(Block& block, std::filesystem::path const& path, int line, std::vector<double> const& row,
                 double to_nm) {
-    double const nm = row[0] * to_nm;
-    if (!(nm > 0)) fail(path, line, fmt::format("wavelength {}: it must be above 0", nm));
-    if (!block.nm.empty() && nm == block.nm.back()) fail(path, line, fmt::format("wavelength {} is there twice", nm));
-    if (!block.nm.empty() && nm < block.nm.back())
-        fail(path, line, fmt::format("wavelength {} after {}: they must increase", nm, block.nm.back()));
-    block.nm.push_back(nm);
+    append_wavelength(block.nm, path, line, row[0] * to_nm);
     block.values.resize(block.names.size());
     for (std::size_t i = 0; i < block.names.size(); ++i) block.values[i].push_back(row[i + 1]);
 }
@@ -105,21 +79,6 @@ void join(SpectrumFile& file, std::vector<Block> const& blocks) {
                 for (double nm : file.wavelength_nm) column.push_back(function.at(nm));
             file.column_order.push_back(block.names[i]);
         }
-}
-
-std::vector<std::string> lines_of(std::filesystem::path const& path) {
-    std::error_code error;
-    if (!std::filesystem::exists(path, error)) fail(path, 0, "no such file");
-    if (!std::filesystem::is_regular_file(path, error)) fail(path, 0, "is not a regular file");
-    if (std::filesystem::file_size(path, error) > largest_file)
-        fail(path, 0, fmt::format("larger than {} MiB", largest_file >> 20));
-    std::ifstream in(path);
-    if (!in) fail(path, 0, "cannot be read");
-    std::vector<std::string> lines;
-    for (std::string line; std::getline(in, line);) lines.push_back(line);
-    constexpr char const* byte_order_mark = "\xef\xbb\xbf";
-    if (!lines.empty() && lines[0].starts_with(byte_order_mark)) lines[0].erase(0, 3);
-    return lines;
 }
 
 // "# formula: sellmeier: n^2 - 1 = c0 + sum c[2i+1] L^2/(L^2 - c[2i+2]^2) ..." -> which of the three.
@@ -157,6 +116,11 @@ struct Header {
     std::string formula, valid_nm;
     int formula_line = 0, valid_line = 0;
 };
+Summation summation_of(std::filesystem::path const& path, int line, std::string const& text) {
+    if (text == "tabulated") return Summation::tabulated;
+    if (text == "interpolated") return Summation::interpolated;
+    fail(path, line, fmt::format("unknown summation '{}'{}", text, suggestion(text, {"tabulated", "interpolated"})));
+}
 void read_header_line(SpectrumFile& file, Header& header, int line_number, std::string const& line) {
     auto const colon = line.find(':');
     if (colon == std::string::npos) return;
@@ -167,6 +131,8 @@ void read_header_line(SpectrumFile& file, Header& header, int line_number, std::
         file.unit = value;
     else if (key == "source")
         file.source = value;
+    else if (key == "summation")
+        file.summation = summation_of(file.path, line_number, value);
     else if (key == "formula")
         header.formula = value, header.formula_line = line_number;
     else if (key == "valid_nm")
@@ -248,7 +214,8 @@ class TableReader {
 };
 
 SpectrumFile read_table(std::filesystem::path const& path, std::vector<std::string> const& lines) {
-    SpectrumFile file{path, {}, {}, {}, {}, {}, {}, {}};
+    SpectrumFile file;
+    file.path = path;
     Header header;
     std::vector<std::pair<int, std::vector<std::string>>> table;
     for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -356,7 +323,8 @@ void read_yaml_data(SpectrumFile& file, YAML::Node const& data, std::vector<std:
 }
 
 SpectrumFile read_yaml(std::filesystem::path const& path, std::vector<std::string> const& lines) {
-    SpectrumFile file{path, {}, {}, {}, {}, {}, {}, {}};
+    SpectrumFile file;
+    file.path = path;
     try {
         YAML::Node const root = YAML::LoadFile(path.string());
         if (!root.IsMap() || !root["DATA"].IsDefined()) fail(path, 0, "holds no DATA");
@@ -373,6 +341,7 @@ SpectrumFile read_yaml(std::filesystem::path const& path, std::vector<std::strin
 SpectrumFile read_spectrum_file(std::filesystem::path const& path) {
     std::vector<std::string> const lines = lines_of(path);
     if (path.extension() == ".yml" || path.extension() == ".yaml") return read_yaml(path, lines);
+    if (is_cgats(lines)) return read_cgats(path, lines);
     return read_table(path, lines);
 }
 
