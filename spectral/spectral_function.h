@@ -33,7 +33,7 @@ struct ConstantShape {
 };
 
 // How colorimetry sums a table: by linear interpolation to whole nanometres, or at its own wavelengths alone, which is how
-// CIE means the lamps with emission lines that it tabulates in bands of 5 nm (FL, HP).
+// CIE arrives at the published chromaticities of what it tabulates at 5 nm with lines or steps (C, FL, HP, LED).
 enum class Summation { interpolated, tabulated };
 
 // Piecewise linear through (nm[i], value[i]), nm strictly increasing; or, with `step`, constant value[i] on
