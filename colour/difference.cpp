@@ -61,8 +61,8 @@ double delta_e_cmc(Lab const& p, Lab const& q, double l, double c) {
     double const C = std::hypot(p.a, p.b), h = hue_deg(p.a, p.b);
     double const SL = p.L < 16 ? 0.511 : 0.040975 * p.L / (1 + 0.01765 * p.L);
     double const SC = 0.0638 * C / (1 + 0.0131 * C) + 0.638;
-    double const T = 164 <= h && h <= 345 ? 0.56 + std::abs(0.2 * cos_deg(h + 168))
-                                          : 0.36 + std::abs(0.4 * cos_deg(h + 35));
+    double const T =
+        164 <= h && h <= 345 ? 0.56 + std::abs(0.2 * cos_deg(h + 168)) : 0.36 + std::abs(0.4 * cos_deg(h + 35));
     double const F = std::sqrt(std::pow(C, 4) / (std::pow(C, 4) + 1900));
     double const SH = SC * (F * T + 1 - F);
     return std::sqrt(square(d.L / (l * SL)) + square(d.C / (c * SC)) + d.H2 / square(SH));

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "colour/gamut.h"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "base/diagnostics.h"
 #include "colour/difference.h"
@@ -13,11 +15,22 @@ namespace iride {
 
 namespace {
 
-// How far `c` stands out of the solid in direction d, over the length of d; positive outside.
-double excess(VectorDouble const& d, VectorDouble const& c, TristimulusWeights const& weights) {
-    double support = 0;
-    for (Xyz const& w : weights.weights()) support += std::max(0.0, d.dot(to_vector(w)));
-    return (d.dot(c) - support) / d.norm();
+// Smallest value of a convex function on [low, high], by golden sections.
+template <class Function>
+double smallest(double low, double high, Function const& f) {
+    constexpr double golden = 0.6180339887498949;  // (sqrt(5) - 1) / 2
+    constexpr int steps = 45;                      // leave golden^45 = 4e-10 of the interval
+    double a = high - golden * (high - low), b = low + golden * (high - low), f_a = f(a), f_b = f(b);
+    for (int i = 0; i < steps; ++i) {
+        if (f_a < f_b) {
+            high = b, b = a, f_b = f_a;
+            f_a = f(a = high - golden * (high - low));
+        } else {
+            low = a, a = b, f_a = f_b;
+            f_b = f(b = low + golden * (high - low));
+        }
+    }
+    return std::min(f_a, f_b);
 }
 
 }  // namespace
@@ -38,31 +51,26 @@ Xyz optimal_colour(double from_nm, double to_nm, TristimulusWeights const& weigh
 }
 
 bool is_object_colour(Xyz const& colour, TristimulusWeights const& weights) {
-    constexpr double tolerance = 1e-6;  // of Y of the white
-    VectorDouble const c = to_vector(colour);
-    if (!c.allFinite()) return false;
-    // The excess is concave up to its norm, so a local maximum of it is the only one; a shrinking search over the sphere
-    // from the best of a few directions finds it.
-    VectorDouble best(0, 1, 0);
-    double most = excess(best, c, weights);
-    auto const attempt = [&](VectorDouble const& d) {
-        double const value = excess(d, c, weights);
-        if (!(value > most)) return false;
-        most = value;
-        best = d.normalized();
-        return true;
+    constexpr double tolerance = 1e-6;
+    VectorDouble const white = to_vector(weights.white());
+    VectorDouble const p = to_vector(colour).cwiseQuotient(white) - VectorDouble::Constant(.5);
+    if (!p.allFinite()) return false;
+    if (p.norm() <= tolerance) return true;
+    std::vector<VectorDouble> relative;
+    for (Xyz const& w : weights.weights()) relative.push_back(to_vector(w).cwiseQuotient(white));
+    auto const support = [&](VectorDouble const& d) {
+        double sum = 0;
+        for (VectorDouble const& w : relative) sum += std::abs(d.dot(w));
+        return sum / 2;
     };
-    for (int x = -1; x <= 1; ++x)
-        for (int y = -1; y <= 1; ++y)
-            for (int z = -1; z <= 1; ++z)
-                if (x != 0 || y != 0 || z != 0) attempt(VectorDouble(x, y, z));
-    for (double step = .5; step > 1e-7 && most <= tolerance;) {
-        bool better = false;
-        for (int axis = 0; axis < 3; ++axis)
-            for (double sign : {-1.0, 1.0}) better |= attempt(best + sign * step * VectorDouble::Unit(axis));
-        if (!better) step /= 2;
-    }
-    return most <= tolerance;
+    // d = p / p^2 + s e1 + t e2. The solid holds a ball of radius 1/50 of the white about its middle, and is held by
+    // one of radius 1, which bounds s and t.
+    VectorDouble const along = p / p.squaredNorm(), e1 = p.unitOrthogonal(), e2 = p.normalized().cross(e1);
+    double const reach = 50 / p.norm();
+    double const least = smallest(-reach, reach, [&](double s) {
+        return smallest(-reach, reach, [&](double t) { return support(along + s * e1 + t * e2); });
+    });
+    return least >= 1 - tolerance;
 }
 
 RgbGamut::RgbGamut(MatrixDouble const& rgb_to_xyz) : to_xyz_(rgb_to_xyz), from_xyz_(rgb_to_xyz.inverse()) {

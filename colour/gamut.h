@@ -17,8 +17,9 @@ bool is_light(Xyz const& colour, SpectralLocus const& locus);
 // nothing between and all else. They bound the colours of objects under the weights' illuminant. [MacAdam 1935]
 Xyz optimal_colour(double from_nm, double to_nm, TristimulusWeights const& weights);
 
-// Whether some reflectance 0 .. 1 has this XYZ (Y = 1 for the perfect diffuser), to 1e-6 of the white. A point is in the
-// convex solid if no direction d has d.XYZ > sum of max(0, d.weight); directions are searched from a fixed set by descent.
+// Whether some reflectance 0 .. 1 has this XYZ (Y = 1 for the perfect diffuser), to 1e-6 of the white. The solid is
+// convex and symmetric about the middle grey g; c = g + p is in it if for every d with d.p = 1: sum of |d.weight| / 2
+// >= 1.
 bool is_object_colour(Xyz const& colour, TristimulusWeights const& weights);
 
 // The colours of linear RGB within 0 .. 1 by a matrix to XYZ.
@@ -30,8 +31,8 @@ class RgbGamut {
     // To a tolerance of 1e-9 in each channel: rounding of the matrix product.
     bool contains(Xyz const& colour) const;
 
-    // Nearest at constant lightness and hue of L*a*b*: chroma is reduced as little as possible; L* is first brought into
-    // the range of the gamut's greys.
+    // Nearest at constant lightness and hue of L*a*b*: chroma is reduced as little as possible; L* is first brought
+    // into the range of the gamut's greys.
     Xyz nearest_by_chroma(Xyz const& colour, Xyz const& white) const;
 
     // Nearest by CIE 1976 difference, over the whole gamut; found to 1e-4 of a unit on the surface of the cube.

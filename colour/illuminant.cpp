@@ -31,9 +31,8 @@ Chromaticity daylight_chromaticity(double T) {
     if (!(coldest <= T && T <= hottest))
         throw InputError({}, "illuminant",
                          fmt::format("daylight of {:g} K: allowed is {:g} .. {:g} K", T, coldest, hottest));
-    double const x =
-        T <= joint ? -4.6070e9 / (T * T * T) + 2.9678e6 / (T * T) + 0.09911e3 / T + 0.244063
-                   : -2.0064e9 / (T * T * T) + 1.9018e6 / (T * T) + 0.24748e3 / T + 0.237040;
+    double const x = T <= joint ? -4.6070e9 / (T * T * T) + 2.9678e6 / (T * T) + 0.09911e3 / T + 0.244063
+                                : -2.0064e9 / (T * T * T) + 1.9018e6 / (T * T) + 0.24748e3 / T + 0.237040;
     return {x, -3 * square(x) + 2.870 * x - 0.275};
 }
 
@@ -72,8 +71,8 @@ SpectralFunction illuminant(std::string const& name, std::filesystem::path const
     SpectralFunction const light = load_spectrum(name, SpectralQuantity::power, folder);
     WavelengthRange const everywhere = light.defined_on();
     if (auto const* table = std::get_if<TabulatedShape>(&light.shape()); table && light.smallest(everywhere) < 0)
-        throw InputError({}, name, fmt::format("a spectral power of {:g}: it is not negative",
-                                               light.smallest(everywhere)));
+        throw InputError({}, name,
+                         fmt::format("a spectral power of {:g}: it is not negative", light.smallest(everywhere)));
     return light;
 }
 

@@ -27,7 +27,8 @@ inline constexpr DefinedTemperature illuminant_a_temperature{2848, 1.4350e-2}, d
 // Chromaticity of the D series, 4000 .. 25000 K, else InputError.
 Chromaticity daylight_chromaticity(double cct_K);
 
-// Relative spectral power of the D series, 300 .. 830 nm, near 100 at 560 nm. Throws InputError outside 4000 .. 25000 K.
+// Relative spectral power of the D series, 300 .. 830 nm, near 100 at 560 nm. Throws InputError outside 4000 .. 25000
+// K.
 SpectralFunction daylight_illuminant(double cct_K);
 
 // Illuminant A as its formula defines it: Planck's law at its temperature, 100 at 560 nm.

@@ -7,9 +7,9 @@ namespace iride {
 
 namespace {
 
-constexpr double knee = 6.0 / 29;                 // f at the joint of cube root and tangent line
-constexpr double offset = 4.0 / 29;               // f(0)
-constexpr double slope = 1 / (3 * knee * knee);   // of the tangent line
+constexpr double knee = 6.0 / 29;                // f at the joint of cube root and tangent line
+constexpr double offset = 4.0 / 29;              // f(0)
+constexpr double slope = 1 / (3 * knee * knee);  // of the tangent line
 
 // f(t) - f(0): the offset cancels in L*, a*, b*, and without it small values keep all their digits.
 double companded(double t) { return t > knee * knee * knee ? std::cbrt(t) - offset : slope * t; }

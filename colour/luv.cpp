@@ -16,8 +16,7 @@ Luv to_luv(Xyz const& c, Xyz const& white) {
 Xyz to_xyz(Luv const& c, Xyz const& white) {
     if (c.L == 0) return {};
     UvPrime const n = to_uv_prime(white);
-    return to_xyz(
-        UvYPrime{c.u / (13 * c.L) + n.u, c.v / (13 * c.L) + n.v, white.Y * relative_luminance(c.L)});
+    return to_xyz(UvYPrime{c.u / (13 * c.L) + n.u, c.v / (13 * c.L) + n.v, white.Y * relative_luminance(c.L)});
 }
 
 }  // namespace iride

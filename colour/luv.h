@@ -10,8 +10,8 @@ struct Luv {
     double L, u, v;
 };
 
-// A colour with X + 15Y + 3Z = 0 has no u', v'; it is given the white's. L* = 0 is black whatever u* and v* say: X and Z
-// of a colour without luminance cannot be told in this space.
+// A colour with X + 15Y + 3Z = 0 has no u', v'; it is given the white's. L* = 0 is black whatever u* and v* say: X and
+// Z of a colour without luminance cannot be told in this space.
 Luv to_luv(Xyz const& colour, Xyz const& white);
 Xyz to_xyz(Luv const& colour, Xyz const& white);
 

@@ -24,8 +24,7 @@ std::optional<Complementary> complementary(double wavelength_nm, Chromaticity co
                                            SpectralLocus const& locus) {
     double const from = locus.wavelengths_nm().front(), to = locus.wavelengths_nm().back();
     if (!(from <= wavelength_nm && wavelength_nm <= to))
-        throw InputError({}, "wavelength",
-                         fmt::format("{:g} nm: allowed is {:g} .. {:g} nm", wavelength_nm, from, to));
+        throw InputError({}, "wavelength", fmt::format("{:g} nm: allowed is {:g} .. {:g} nm", wavelength_nm, from, to));
     Chromaticity const pure = to_chromaticity(observer.at(wavelength_nm));
     auto const opposite = locus.crossing(white, white.x - pure.x, white.y - pure.y);
     if (!opposite.wavelength_nm) return std::nullopt;

@@ -23,9 +23,9 @@ MatrixDouble monitor_matrix(Primaries const& primaries, Xyz const& white);
 
 // A colour carried to another monitor. What it cannot show is clipped, and says by how much.
 struct Carried {
-    VectorDouble unclipped, rgb;                                // linear; rgb within 0 .. 1
-    std::array<bool, 3> clipped;                                // per channel
-    double largest_excess;                                      // farthest distance of a channel from 0 .. 1
+    VectorDouble unclipped, rgb;  // linear; rgb within 0 .. 1
+    std::array<bool, 3> clipped;  // per channel
+    double largest_excess;        // farthest distance of a channel from 0 .. 1
 };
 class MonitorToMonitor {
   public:

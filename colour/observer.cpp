@@ -53,8 +53,6 @@ SpectralFunction luminance_weighted(SpectralFunction const& radiance, double lum
     return radiance.scaled(luminance / observer.integrate(radiance).Y);
 }
 
-double luminance_of_unit_Y(Observer const& observer) {
-    return maximum_luminous_efficacy * observer.ybar_integral;
-}
+double luminance_of_unit_Y(Observer const& observer) { return maximum_luminous_efficacy * observer.ybar_integral; }
 
 }  // namespace iride

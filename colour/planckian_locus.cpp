@@ -7,8 +7,8 @@ namespace iride {
 
 namespace {
 
-constexpr double mired_K = 1e6;    // reciprocal megakelvin times kelvin
-constexpr double node_step = 5;    // mired: nowhere does the locus turn so much that two minima share an interval
+constexpr double mired_K = 1e6;  // reciprocal megakelvin times kelvin
+constexpr double node_step = 5;  // mired: nowhere does the locus turn so much that two minima share an interval
 
 }  // namespace
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Correlated colour temperature and Duv: the blackbody nearest in u, v (1960) and the distance to it, positive above the
-// locus. The locus is Planck's law (exact c2 of the SI) seen by the observer, summed at 1 nm, and the nearest point is
-// found on it, not on a fit: where the connecting line is perpendicular to it. [Ohno 2014] [CIE 15:2018, 9.5]
+// Correlated colour temperature and Duv: the blackbody nearest in u, v (1960) and the distance to it, positive above
+// the locus. The locus is Planck's law (exact c2 of the SI) seen by the observer, summed at 1 nm, and the nearest point
+// is found on it, not on a fit: where the connecting line is perpendicular to it. [Ohno 2014] [CIE 15:2018, 9.5]
 #pragma once
 
 #include <optional>

@@ -7,8 +7,8 @@
 #include <map>
 
 #include "base/diagnostics.h"
-#include "colour/observer.h"
-#include "spectral/catalogue.h"
+#include "colour/illuminant.h"
+#include "colour/tristimulus.h"
 
 namespace iride {
 
@@ -52,8 +52,7 @@ Chromaticity named_white(std::string const& name) {
         {"D65", {0.3127, 0.3290}}, {"D75", {0.2990, 0.3149}}, {"E", {1.0 / 3, 1.0 / 3}}, {"ACES", aces_white}};
     if (auto const found = published.find(name); found != published.end()) return found->second;
     if (auto const colon = name.rfind(":table"); colon != std::string::npos && colon + 6 == name.size()) {
-        SpectralFunction const light = load_spectrum(name.substr(0, colon), SpectralQuantity::power);
-        return to_chromaticity(cie1931_2deg().integrate(light));
+        return to_chromaticity(xyz_of_light(illuminant(name.substr(0, colon)), cie1931_2deg()));
     }
     std::vector<std::string> names;
     for (auto const& entry : published) names.push_back(entry.first);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The spectral locus of an observer: chromaticities of the monochromatic stimuli at 1 nm, closed by the line of purples.
-// Between tabulated wavelengths the matching functions are linear, so the chromaticity moves on a straight line, and
-// a point of the polygon has exactly one wavelength. [CIE 15:2018, 9.2]
+// The spectral locus of an observer: chromaticities of the monochromatic stimuli at 1 nm, closed by the line of
+// purples. Between tabulated wavelengths the matching functions are linear, so the chromaticity moves on a straight
+// line, and a point of the polygon has exactly one wavelength. [CIE 15:2018, 9.2]
 #pragma once
 
 #include <optional>

@@ -54,8 +54,8 @@ Points points_of(SpectralFunction const& f, WavelengthRange const& domain) {
         return with_widths(std::move(own));
     }
     std::vector<double> all = whole_nanometres(domain);
-    bool const fine = std::adjacent_find(own.begin(), own.end(),
-                                         [](double a, double b) { return b - a < 1; }) != own.end();
+    bool const fine =
+        std::adjacent_find(own.begin(), own.end(), [](double a, double b) { return b - a < 1; }) != own.end();
     if (!fine) return with_widths(std::move(all));
     all.insert(all.end(), own.begin(), own.end());
     std::ranges::sort(all);
@@ -88,9 +88,7 @@ Products products(SpectralFunction const& f, Observer const& observer) {
     return result;
 }
 
-double ybar_sum(Observer const& observer) {
-    return products(SpectralFunction::constant(1), observer).total.Y;
-}
+double ybar_sum(Observer const& observer) { return products(SpectralFunction::constant(1), observer).total.Y; }
 
 }  // namespace
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tristimulus integration as CIE practises it: sums at 1 nm,
 //   X = k sum of S(lambda) R(lambda) xbar(lambda), and so on,
-// with k = 1 / sum of S ybar for an object under illuminant S (Y = 1 for the perfect diffuser), k = 1 / sum of ybar for a
-// light (R = 1; Y = 1 for 1 W m^-2 sr^-1 nm^-1 at every wavelength). Multiply by 100 for the scale of CIE 15. Tables are
-// interpolated linearly to whole nanometres within the observer's domain (wish for Sprague? sprague_interpolated first);
-// a table with Summation::tabulated is summed at its own wavelengths; one finer than 1 nm keeps its own points too.
-// Outside its table a spectrum is what its Outside says. [CIE 15:2018, 7] [ASTM E308]
+// with k = 1 / sum of S ybar for an object under illuminant S (Y = 1 for the perfect diffuser), k = 1 / sum of ybar for
+// a light (R = 1; Y = 1 for 1 W m^-2 sr^-1 nm^-1 at every wavelength). Multiply by 100 for the scale of CIE 15. Tables
+// are interpolated linearly to whole nanometres within the observer's domain (wish for Sprague? sprague_interpolated
+// first); a table with Summation::tabulated is summed at its own wavelengths; one finer than 1 nm keeps its own points
+// too. Outside its table a spectrum is what its Outside says. [CIE 15:2018, 7] [ASTM E308]
 #pragma once
 
 #include <span>
@@ -36,8 +36,8 @@ class TristimulusWeights {
     std::vector<double> const& wavelengths_nm() const { return nm_; }
     std::vector<Xyz> const& weights() const { return weight_; }  // at wavelengths_nm()
 
-    // Weights for a factor measured at first, first + step, ... last only: those that interpolate it by Lagrange's cubic
-    // (quadratic in the outermost intervals), hold its end values beyond, and sum as above. No correction for the
+    // Weights for a factor measured at first, first + step, ... last only: those that interpolate it by Lagrange's
+    // cubic (quadratic in the outermost intervals), hold its end values beyond, and sum as above. No correction for the
     // instrument's bandpass. Throws InputError for fewer than 3 points. [ASTM E2022]
     TristimulusWeights at_steps(double first_nm, double last_nm, double step_nm) const;
 

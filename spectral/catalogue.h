@@ -30,11 +30,11 @@ struct SpectrumFile {
 };
 
 // Read a spectrum file: our CSV (`# key: value` header), any table with or without a row of column names, separated by
-// commas, semicolons or blanks (.csv, .spd, .txt), a CGATS table (.ti3, .txt), a refractiveindex.info CSV ("wl,n" and "wl,k" blocks in micrometres)
-// or YAML (tabulated n, k, nk; formulas 1, 2 and 4) as it is pasted. Columns over different wavelengths meet where they
-// overlap; of a formula with a table of k the formula alone is taken. Throws InputError with file:line for anything
-// else: not a number, NaN, unsorted or duplicate wavelengths, a missing or repeated column, a formula without an index
-// somewhere in its range, an empty file, a file larger than 64 MiB.
+// commas, semicolons or blanks (.csv, .spd, .txt), a CGATS table (.ti3, .txt), a refractiveindex.info CSV ("wl,n" and
+// "wl,k" blocks in micrometres) or YAML (tabulated n, k, nk; formulas 1, 2 and 4) as it is pasted. Columns over
+// different wavelengths meet where they overlap; of a formula with a table of k the formula alone is taken. Throws
+// InputError with file:line for anything else: not a number, NaN, unsorted or duplicate wavelengths, a missing or
+// repeated column, a formula without an index somewhere in its range, an empty file, a file larger than 64 MiB.
 SpectrumFile read_spectrum_file(std::filesystem::path const& path);
 
 // Folder of the shipped data: $IRIDE_DATA if set, else the source tree's data/.

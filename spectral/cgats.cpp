@@ -88,8 +88,7 @@ std::vector<Table> tables_of(std::filesystem::path const& path, std::vector<Word
 // "SPEC_380" -> 380.
 std::optional<double> band_nm(std::string name) {
     for (char& c : name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-    for (std::string const prefix :
-         {"SPECTRAL_NM_", "SPECTRAL_NM", "SPECTRAL_", "SPEC_", "NM_", "NM", "R_", "R"})
+    for (std::string const prefix : {"SPECTRAL_NM_", "SPECTRAL_NM", "SPECTRAL_", "SPEC_", "NM_", "NM", "R_", "R"})
         if (name.starts_with(prefix))
             if (auto const nm = table_text::to_number(name.substr(prefix.size()))) return nm;
     return std::nullopt;

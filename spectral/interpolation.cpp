@@ -67,9 +67,7 @@ SpectralFunction sprague_interpolated(SpectralFunction const& table) {
     return SpectralFunction(std::move(fine), table.outside(), table.name());
 }
 
-std::array<double, 3> lagrange_quadratic(double x) {
-    return {(x - 1) * (x - 2) / 2, -x * (x - 2), x * (x - 1) / 2};
-}
+std::array<double, 3> lagrange_quadratic(double x) { return {(x - 1) * (x - 2) / 2, -x * (x - 2), x * (x - 1) / 2}; }
 
 std::array<double, 4> lagrange_cubic(double x) {
     return {-(x - 1) * (x - 2) * (x - 3) / 6, x * (x - 2) * (x - 3) / 2, -x * (x - 1) * (x - 3) / 2,

@@ -32,8 +32,8 @@ struct ConstantShape {
     double value;
 };
 
-// How colorimetry sums a table: by linear interpolation to whole nanometres, or at its own wavelengths alone, which is how
-// CIE arrives at the published chromaticities of what it tabulates at 5 nm with lines or steps (C, FL, HP, LED).
+// How colorimetry sums a table: by linear interpolation to whole nanometres, or at its own wavelengths alone, which is
+// how CIE arrives at the published chromaticities of what it tabulates at 5 nm with lines or steps (C, FL, HP, LED).
 enum class Summation { interpolated, tabulated };
 
 // Piecewise linear through (nm[i], value[i]), nm strictly increasing; or, with `step`, constant value[i] on
@@ -95,10 +95,10 @@ class SpectralFunction {
     std::string name_;
 };
 
-inline constexpr double planck_constant = 6.62607015e-34;    // J s, exact, SI 2019
-inline constexpr double speed_of_light = 299792458;          // m/s, exact
-inline constexpr double boltzmann_constant = 1.380649e-23;   // J/K, exact, SI 2019
-inline constexpr double second_radiation_constant =          // c2 = h c / k [m K]
+inline constexpr double planck_constant = 6.62607015e-34;   // J s, exact, SI 2019
+inline constexpr double speed_of_light = 299792458;         // m/s, exact
+inline constexpr double boltzmann_constant = 1.380649e-23;  // J/K, exact, SI 2019
+inline constexpr double second_radiation_constant =         // c2 = h c / k [m K]
     planck_constant * speed_of_light / boltzmann_constant;
 
 // Planck's law [W m^-2 sr^-1 nm^-1]: c1L / lambda^5 / (exp(c2 / (lambda T)) - 1), c1L = 2 h c^2.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reading spectrum files: our CSV, plain tables, and refractiveindex.info's CSV and YAML as they are pasted. CGATS tables
-// have a reader of their own.
+// Reading spectrum files: our CSV, plain tables, and refractiveindex.info's CSV and YAML as they are pasted. CGATS
+// tables have a reader of their own.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <yaml-cpp/yaml.h>

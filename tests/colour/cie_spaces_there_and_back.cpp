@@ -14,7 +14,8 @@ using namespace iride;
 namespace {
 
 double relative_error(Xyz const& a, Xyz const& b) {
-    double const scale = to_vector(b).cwiseAbs().maxCoeff(), error = (to_vector(a) - to_vector(b)).cwiseAbs().maxCoeff();
+    double const scale = to_vector(b).cwiseAbs().maxCoeff(),
+                 error = (to_vector(a) - to_vector(b)).cwiseAbs().maxCoeff();
     return scale == 0 ? error : error / scale;
 }
 

@@ -52,7 +52,8 @@ Pair const sharma[] = {
 };
 
 Lab const standard{100, 21.57210357, 272.22819350};
-Lab const samples[] = {{100, 426.67945353, 72.39590835}, {100, 74.05216981, 276.45318193}, {100, 8.32281957, -73.58297716}};
+Lab const samples[] = {
+    {100, 426.67945353, 72.39590835}, {100, 74.05216981, 276.45318193}, {100, 8.32281957, -73.58297716}};
 
 void check_three(char const* formula, double a, double b, double c) {
     double const wanted[] = {a, b, c};

@@ -68,8 +68,8 @@ TEST_CASE("the tables of the D series are the formula at their temperature", "[l
         DefinedTemperature temperature;
         double margin;
     };
-    for (Row const& row : {Row{"D50", d50_temperature, .0051}, {"D55", d55_temperature, .0051},
-                           {"D75", d75_temperature, .0051}}) {
+    for (Row const& row :
+         {Row{"D50", d50_temperature, .0051}, {"D55", d55_temperature, .0051}, {"D75", d75_temperature, .0051}}) {
         SpectralFunction const table = illuminant(row.name);
         SpectralFunction const formula = daylight_illuminant(row.temperature.on_scale_of(c2_its90));
         for (int nm = 300; nm <= 780; nm += 5) {
