@@ -30,9 +30,9 @@ void check_factor(SpectralFunction const& factor, WavelengthRange const& domain)
 ColourDescriber::ColourDescriber(SpectralFunction const& illuminant, Observer const& observer)
     : observer_(observer), weights_(illuminant, observer), spectral_locus_(observer), planckian_locus_(observer) {}
 
-ColourDescription ColourDescriber::of_object(SpectralFunction const& factor) const {
+ColourDescription ColourDescriber::of_object(SpectralFunction const& factor, Between between) const {
     check_factor(factor, observer_.ybar.defined_on());
-    return of(100 * weights_.of(factor));
+    return of(100 * (between == Between::astm ? weights_.of_measured(factor) : weights_.of(factor)));
 }
 
 ColourDescription ColourDescriber::of_light(SpectralFunction const& power) const {

@@ -32,9 +32,11 @@ class ColourDescriber {
   public:
     ColourDescriber(SpectralFunction const& illuminant, Observer const& observer);
 
-    // A reflectance factor or transmittance under the illuminant. Throws InputError if it is not within 0 .. 1 (it may
-    // be percent) or has no wavelength in the observer's domain.
-    ColourDescription of_object(SpectralFunction const& factor) const;
+    // A reflectance factor or transmittance under the illuminant: `linear` between its points, as the renderer carries
+    // it, or with the weights of ASTM E2022 where it was measured at 5, 10 or 20 nm. Throws InputError if it is not
+    // within 0 .. 1 (it may be percent) or has no wavelength in the observer's domain.
+    enum class Between { linear, astm };
+    ColourDescription of_object(SpectralFunction const& factor, Between between = Between::linear) const;
     // A light by itself, whatever its power.
     ColourDescription of_light(SpectralFunction const& power) const;
     // XYZ with Y = 100 for the white.

@@ -29,7 +29,7 @@ PlanckianLocus::PlanckianLocus(Observer const& observer) {
 PlanckianLocus::Point PlanckianLocus::at_mired(double mired) const {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero(), slope = Eigen::Vector3d::Zero();
     for (std::size_t i = 0; i < exponent_.size(); ++i) {
-        double const planck = 1 / std::expm1(exponent_[i] * mired);
+        double const planck = 1 / (std::exp(exponent_[i] * mired) - 1);  // the exponent is above .08: nothing cancels
         sum += planck * weight_[i];
         slope -= planck * (1 + planck) * exponent_[i] * weight_[i];
     }
@@ -48,7 +48,7 @@ std::optional<CorrelatedTemperature> PlanckianLocus::nearest(Uv1960 const& c) co
     for (std::size_t i = 1; i < node_.size(); ++i)
         if (distance(node_[i]) < distance(node_[best])) best = i;
     if (best == 0 || best + 1 == node_.size()) return std::nullopt;
-    // Of the derivative of half the squared distance, negative before the nearest point: bisection narrowed by secants.
+    // Root of the derivative of half the squared distance, which is negative before the nearest point, by regula falsi.
     auto const derivative = [&](double mired) {
         Point const p = at_mired(mired);
         return (p.uv.u - c.u) * p.slope.u + (p.uv.v - c.v) * p.slope.v;
@@ -56,28 +56,24 @@ std::optional<CorrelatedTemperature> PlanckianLocus::nearest(Uv1960 const& c) co
     double low = node_mired_[best - 1], high = node_mired_[best + 1];
     double at_low = derivative(low), at_high = derivative(high);
     if (!(at_low < 0 && at_high > 0)) return std::nullopt;
-    constexpr double enough = 1e-10;  // mired: 1e-6 K at 100000 K
-    for (int i = 0; i < 60 && high - low > enough; ++i) {
-        double const secant = low + (high - low) * at_low / (at_low - at_high);
-        // A secant step on every other turn; the middle in between bounds the number of steps.
-        double const m = i % 3 == 2 ? (low + high) / 2 : secant;
-        double const value = derivative(m);
-        if (value == 0) {
-            low = high = m;
-            break;
-        }
-        // Illinois: the end that stays twice counts half.
+    constexpr double enough = 1e-9;  // mired: 1e-5 K at 100000 K
+    constexpr int many = 60;         // steps, of which about eight are needed
+    double mired = node_mired_[best], last = low;
+    for (int i = 0; i < many && std::abs(mired - last) > enough; ++i) {
+        last = mired;
+        mired = low + (high - low) * at_low / (at_low - at_high);
+        double const value = derivative(mired);
+        // Illinois: the end that stays counts half, so that the next step passes the root.
         if (value < 0) {
-            low = m;
+            low = mired;
             at_low = value;
             at_high /= 2;
         } else {
-            high = m;
+            high = mired;
             at_high = value;
             at_low /= 2;
         }
     }
-    double const mired = (low + high) / 2;
     constexpr double rounding = 1e-9;  // of T: a blackbody at the very end of the range is inside
     double const T = mired_K / mired;
     if (T < coldest_K * (1 - rounding) || T > hottest_K * (1 + rounding)) return std::nullopt;

@@ -122,6 +122,15 @@ Xyz TristimulusWeights::of(std::span<double const> factor) const {
     return sum;
 }
 
+Xyz TristimulusWeights::of_measured(SpectralFunction const& factor) const {
+    auto const* table = std::get_if<TabulatedShape>(&factor.shape());
+    double const step = table && !table->step ? equal_step(table->nm) : 0;
+    if (table == nullptr || table->nm.size() < 3 || (step != 5 && step != 10 && step != 20)) return of(factor);
+    std::vector<double> values;
+    for (double nm : table->nm) values.push_back(factor.at(nm));
+    return at_steps(table->nm.front(), table->nm.back(), step).of(values);
+}
+
 TristimulusWeights TristimulusWeights::at_steps(double first_nm, double last_nm, double step_nm) const {
     double const intervals = (last_nm - first_nm) / step_nm;
     if (!(first_nm > 0 && step_nm > 0 && intervals >= 2) || intervals != std::floor(intervals) || intervals > 1e6)

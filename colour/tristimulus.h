@@ -32,6 +32,10 @@ class TristimulusWeights {
     // The same from the factor's values at wavelengths_nm(), in that order.
     Xyz of(std::span<double const> factor) const;
 
+    // The same by at_steps for a table at equal steps of 5, 10 or 20 nm, whose points lie apart so far that straight
+    // lines between them cost colour (24 ColorChecker patches at 5 nm: up to .04 of CIEDE2000); other shapes as `of`.
+    Xyz of_measured(SpectralFunction const& factor) const;
+
     Xyz white() const { return white_; }  // of the perfect diffuser: the illuminant's colour with Y = 1
     std::vector<double> const& wavelengths_nm() const { return nm_; }
     std::vector<Xyz> const& weights() const { return weight_; }  // at wavelengths_nm()

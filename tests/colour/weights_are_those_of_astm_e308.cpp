@@ -120,6 +120,21 @@ TEST_CASE("weights at 5, 10 and 20 nm agree with the sum at 1 nm as closely as a
     }
 }
 
+// The wavy factor measured at 10 nm: lines between the points flatten its hills, cubics do not.
+TEST_CASE("a table at 10 nm is weighed as measured on request, any other shape as it is", "[law]") {
+    TabulatedShape fine, coarse;
+    for (int nm = 360; nm <= 830; ++nm) {
+        fine.nm.push_back(nm), fine.value.push_back(wavy(nm));
+        if (nm % 10 == 0) coarse.nm.push_back(nm), coarse.value.push_back(wavy(nm));
+    }
+    TristimulusWeights const weights(illuminant("D65"), cie1931_2deg());
+    SpectralFunction const measured(coarse, Outside::hold), known(fine, Outside::hold);
+    double const exact = weights.of(known).Y;
+    CHECK(std::abs(weights.of_measured(measured).Y - exact) < .1 * std::abs(weights.of(measured).Y - exact));
+    CHECK(weights.of_measured(known).Y == exact);
+    CHECK(weights.of_measured(SpectralFunction::constant(.5)).Y == Approx(.5).epsilon(1e-14));
+}
+
 TEST_CASE("a constant factor is that multiple of the white, whatever the range and step", "[law]") {
     TristimulusWeights const direct(illuminant("D50"), cie1931_2deg());
     for (double step : {5.0, 10.0, 20.0}) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // CGATS tables as instruments write them, and several spectra of a file at once.
 #include <catch2/catch.hpp>
-#include <fstream>
 
 #include "base/diagnostics.h"
 #include "spectral/catalogue.h"
+#include "support/scenes.h"
 
 using namespace iride;
 
@@ -12,13 +12,11 @@ namespace {
 
 class Written {
   public:
-    Written(std::string const& name, std::string const& text) : path_(std::filesystem::temp_directory_path() / name) {
-        std::ofstream(path_) << text;
-    }
-    ~Written() { std::filesystem::remove(path_); }
+    Written(std::string const& name, std::string const& text) : path_(folder_.write(name, text)) {}
     std::string path() const { return path_.string(); }
 
   private:
+    test::TemporaryFolder folder_;
     std::filesystem::path path_;
 };
 
