@@ -8,6 +8,7 @@
 
 #include "base/diagnostics.h"
 #include "colour/illuminant.h"
+#include "colour/rgb_encoding.h"
 #include "colour/tristimulus.h"
 
 namespace iride {
@@ -27,12 +28,6 @@ RgbSpace const rgb::rec709{"Rec709", {0.64, 0.33}, {0.30, 0.60}, {0.15, 0.06}, d
 RgbSpace const rgb::rec2020{"Rec2020", {0.708, 0.292}, {0.170, 0.797}, {0.131, 0.046}, d65, "lin_rec2020_scene"};
 RgbSpace const rgb::display_p3{"DisplayP3", {0.680, 0.320}, {0.265, 0.690}, {0.150, 0.060}, d65, "lin_p3d65_scene"};
 RgbSpace const rgb::adobe_rgb{"AdobeRGB", {0.64, 0.33}, {0.21, 0.71}, {0.15, 0.06}, d65, "lin_adobergb_scene"};
-
-std::vector<RgbSpace> const& rgb_spaces() {
-    static std::vector<RgbSpace> const all{rgb::aces2065_1, rgb::acescg,     rgb::rec709,
-                                           rgb::rec2020,    rgb::display_p3, rgb::adobe_rgb};
-    return all;
-}
 
 MatrixDouble RgbSpace::to_xyz_matrix() const {
     // Columns: the primaries' (x, y, z), scaled so that they add up to the white with Y = 1.
@@ -59,19 +54,14 @@ Chromaticity named_white(std::string const& name) {
     throw InputError({}, "", fmt::format("unknown white '{}'{}", name, suggestion(name, names)));
 }
 
-MatrixDouble bradford_adaptation(Chromaticity const& from, Chromaticity const& to) {
-    MatrixDouble bradford;  // XYZ -> sharpened cone responses; these nine numbers are the definition [Lam 1985]
-    bradford << 0.8951, 0.2664, -0.1614, -0.7502, 1.7135, 0.0367, 0.0389, -0.0685, 1.0296;
-    VectorDouble const source = bradford * to_vector(to_xyz(from, 1)), target = bradford * to_vector(to_xyz(to, 1));
-    return bradford.inverse() * target.cwiseQuotient(source).asDiagonal() * bradford;
-}
-
 OutputSpace output_space(std::string const& name, Chromaticity const& scene_white) {
     if (name == "XYZ") return {name, MatrixDouble::Identity(), nullptr};
-    std::vector<std::string> names{"XYZ", "linear-sRGB"};
-    for (RgbSpace const& space : rgb_spaces()) {
-        names.emplace_back(space.name);
-        if (name == space.name || (name == "linear-sRGB" && space.name == rgb::rec709.name))
+    std::vector<std::string> names{"XYZ"};
+    for (RgbEncoding const& encoding : rgb_encodings()) {
+        if (encoding.name == "sRGB") continue;
+        names.emplace_back(encoding.name);
+        RgbSpace const& space = *encoding.space;
+        if (name == encoding.name)
             return {name, space.from_xyz_matrix() * bradford_adaptation(scene_white, space.white), &space};
     }
     throw InputError({}, "colourspace", fmt::format("unknown colour space '{}'{}", name, suggestion(name, names)));

@@ -4,10 +4,8 @@
 
 #include <string>
 #include <string_view>
-#include <vector>
 
-#include "base/vector.h"
-#include "colour/xyz.h"
+#include "colour/adaptation.h"
 
 namespace iride {
 
@@ -24,15 +22,9 @@ struct RgbSpace {
 namespace rgb {
 extern RgbSpace const aces2065_1, acescg, rec709, rec2020, display_p3, adobe_rgb;  // all linear
 }
-// Every space above, in that order; the command line and the readers iterate it.
-std::vector<RgbSpace> const& rgb_spaces();
-
 // The published chromaticity of a named white ("D65" (.3127,.3290), "D50" (.3457,.3585), "A", "C", "D55", "D75", "E"
 // (1/3,1/3), "ACES" (.32168,.33767)), or, as "D65:table", the one its spectrum gives. Throws InputError.
 Chromaticity named_white(std::string const& name);
-
-// Chromatic adaptation of XYZ from one white to another: M^-1 diag(M w_to / M w_from) M with Bradford's M. [Lam 1985]
-MatrixDouble bradford_adaptation(Chromaticity const& from, Chromaticity const& to);
 
 // What an output named on the command line means: XYZ itself, or an RGB space after adaptation from the scene's white.
 struct OutputSpace {
@@ -40,8 +32,8 @@ struct OutputSpace {
     MatrixDouble from_xyz;  // identity for XYZ
     RgbSpace const* rgb;    // null for XYZ
 };
-// "XYZ", "ACEScg", "ACES2065-1", "linear-sRGB", "Rec709" (the same, linear), "Rec2020", "DisplayP3", "AdobeRGB", all
-// scene-linear. Throws InputError with the allowed names.
+// "XYZ" or a name of rgb_encodings() but sRGB (which is encoded by its name): always scene-linear, so "Rec709" is
+// "linear-sRGB". Adapted by Bradford's method. Throws InputError with the allowed names.
 OutputSpace output_space(std::string const& name, Chromaticity const& scene_white);
 
 }  // namespace iride

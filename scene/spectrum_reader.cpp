@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "colour/observer.h"
+#include "colour/rgb_encoding.h"
 #include "colour/rgb_to_spectrum.h"
 #include "scene/readers.h"
 
@@ -52,17 +53,15 @@ std::optional<SpectralFunction> from_pairs(SceneBuilder& b, JsonValue const& val
 std::optional<SpectralFunction> from_rgb(SceneBuilder& b, Fields& o, SpectrumKind const& kind) {
     auto const rgb = o.vector("rgb");
     std::vector<std::string> names;
-    for (RgbSpace const& s : rgb_spaces()) names.emplace_back(s.name);
-    names.emplace_back("linear-sRGB");
+    for (RgbEncoding const& e : rgb_encodings()) names.emplace_back(e.name);
     auto const space = o.choice("space", names);
     if (!space && !o.find("space")) o.error("an 'rgb' needs its 'space'");
     if (!rgb || !space) return std::nullopt;
-    RgbSpace const* chosen = &rgb::rec709;
-    for (RgbSpace const& s : rgb_spaces())
-        if (s.name == *space) chosen = &s;
+    RgbEncoding const& encoding = rgb_encoding(*space);
+    Eigen::Vector3d const linear = rgb->unaryExpr([&](double v) { return decode(encoding.transfer, v); });
     RgbRole const role = kind.quantity == SpectralQuantity::reflectance ? RgbRole::reflectance : RgbRole::emission;
     std::optional<SpectralFunction> result;
-    b.context.guarded(*o.find("rgb"), o.path("rgb"), [&] { result = rgb_to_spectrum(*rgb, *chosen, role); });
+    b.context.guarded(*o.find("rgb"), o.path("rgb"), [&] { result = rgb_to_spectrum(linear, *encoding.space, role); });
     return result;
 }
 

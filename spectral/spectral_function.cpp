@@ -51,6 +51,13 @@ double evaluate(DispersionShape const& d, Outside outside, double nm) {
     return std::sqrt(n2);
 }
 
+double evaluate(SigmoidShape const& s, Outside outside, double nm) {
+    bool const inside = nm >= visible_range.min_nm && nm <= visible_range.max_nm;
+    if (!inside && outside == Outside::zero) return 0;
+    if (outside != Outside::extrapolate) nm = std::clamp(nm, visible_range.min_nm, visible_range.max_nm);
+    return sigmoid_value(s, nm);
+}
+
 }  // namespace
 
 SpectralFunction::SpectralFunction(SpectrumShape shape, Outside outside, std::string name)
@@ -67,6 +74,7 @@ double SpectralFunction::at(double wavelength_nm) const {
 WavelengthRange SpectralFunction::defined_on() const {
     if (auto const* t = std::get_if<TabulatedShape>(&shape_)) return {t->nm.front(), t->nm.back()};
     if (auto const* d = std::get_if<DispersionShape>(&shape_)) return d->valid;
+    if (std::holds_alternative<SigmoidShape>(shape_)) return visible_range;
     return {0, unbounded};
 }
 
@@ -116,6 +124,12 @@ SpectralFunction SpectralFunction::with_outside(Outside outside) const {
     SpectralFunction copy = *this;
     copy.outside_ = outside;
     return copy;
+}
+
+double sigmoid_value(SigmoidShape const& s, double wavelength_nm) {
+    double const t = (2 * wavelength_nm - visible_range.min_nm - visible_range.max_nm) / visible_range.width();
+    double const x = (s.a * t + s.b) * t + s.c;
+    return 0.5 + 0.5 * x / std::hypot(1.0, x);  // hypot: x^2 may overflow
 }
 
 double planck_radiance(double wavelength_nm, double temperature_K) {

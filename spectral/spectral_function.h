@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A function of wavelength as it is described: a constant, a table, a blackbody, a dispersion formula. Evaluated in
+// A function of wavelength as it is described: a constant, a table, a blackbody, a formula. Evaluated in
 // double at load time and in colorimetry; the sampling loop uses its tabulated form, Spectrum<D>.
 #pragma once
 
@@ -57,7 +57,13 @@ struct DispersionShape {
     WavelengthRange valid;
 };
 
-using SpectrumShape = std::variant<ConstantShape, TabulatedShape, BlackbodyShape, DispersionShape>;
+// A smooth value in [0, 1]: 1/2 + x / (2 sqrt(1 + x^2)), x = (a t + b) t + c, t = -1 .. 1 over `visible_range`, the
+// wavelengths it was fitted to (it is an RGB's spectrum). [Jakob 2019, eqs. 4 and 5]
+struct SigmoidShape {
+    double a, b, c;
+};
+
+using SpectrumShape = std::variant<ConstantShape, TabulatedShape, BlackbodyShape, DispersionShape, SigmoidShape>;
 
 class SpectralFunction {
   public:
@@ -67,7 +73,7 @@ class SpectralFunction {
     // Value at a vacuum wavelength [nm], in the unit of the quantity described.
     double at(double wavelength_nm) const;
 
-    // Where the description itself speaks; (0, infinity) for constants and blackbodies.
+    // Where the description itself speaks; (0, infinity) for constants and blackbodies, `visible_range` for a sigmoid.
     WavelengthRange defined_on() const;
 
     // Largest and smallest value over a range: at the ends, the knots inside and, for formulas, every nm.
@@ -94,6 +100,9 @@ class SpectralFunction {
     Outside outside_;
     std::string name_;
 };
+
+// What a sigmoid says at any wavelength [nm], inside visible_range or not.
+double sigmoid_value(SigmoidShape const& shape, double wavelength_nm);
 
 inline constexpr double planck_constant = 6.62607015e-34;   // J s, exact, SI 2019
 inline constexpr double speed_of_light = 299792458;         // m/s, exact
