@@ -3,112 +3,96 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
-#include <algorithm>
-#include <set>
+#include <Eigen/LU>
+#include <map>
+#include <mutex>
 
 #include "base/diagnostics.h"
-#include "colour/observer.h"
+#include "colour/lab.h"
+#include "colour/sigmoid_fit.h"
 #include "spectral/catalogue.h"
 
 namespace iride {
 
 namespace {
 
-constexpr double step_nm = 5;
-constexpr int knots = 95;  // 360 .. 830 nm
+constexpr double reachable_difference = 1e-3;  // CIE 1976: below what any eye or 8-bit picture tells
+constexpr double rounding = 1e-12;             // relative, of components that came through matrices
+constexpr int most_doublings = 4;              // of the scale of a saturated emission
 
-// XYZ of each knot's hat function under D65 of luminance 1: the colour of sum_i b_i hat_i is a product with this.
-Eigen::Matrix3Xd hat_colours() {
-    Eigen::Matrix3Xd result(3, knots);
-    Observer const& eye = cie1931_2deg();
-    for (int i = 0; i < knots; ++i) {
-        double const centre = visible_range.min_nm + step_nm * i;
-        SpectralFunction const hat(TabulatedShape{{centre - step_nm, centre, centre + step_nm}, {0, 1, 0}},
-                                   Outside::zero);
-        // hat times D65, as a table at 1 nm: both are linear between whole multiples of 5 nm.
-        VectorDouble sum(0, 0, 0);
-        WavelengthRange const support{std::max(visible_range.min_nm, centre - step_nm),
-                                      std::min(visible_range.max_nm, centre + step_nm)};
-        constexpr int cells = 10;
-        for (int c = 0; c < cells; ++c) {
-            double const width = support.width() / cells, middle = support.min_nm + (c + 0.5) * width;
-            for (double side : {-1.0, 1.0}) {  // two-point Gauss rule
-                double const nm = middle + side * width / 2 / std::sqrt(3.0);
-                sum += width / 2 * hat.at(nm) * unit_d65().at(nm) * to_vector(eye.at(nm));
-            }
-        }
-        result.col(i) = sum / eye.ybar_integral;
+// What a white needs to make spectra; made once, kept for the program's life.
+struct Uplift {
+    SpectralFunction light;
+    SigmoidFitter fitter;
+};
+
+SpectralFunction daylight_of(Chromaticity const& white) {
+    SpectrumFile const file = read_spectrum_file(data_folder() / "cie" / "daylight_basis.csv");
+    std::array<std::vector<double> const*, 3> const basis{&file.column.at("S0"), &file.column.at("S1"),
+                                                          &file.column.at("S2")};
+    MatrixDouble xyz;
+    for (std::size_t k = 0; k < 3; ++k)
+        xyz.col(static_cast<Eigen::Index>(k)) = to_vector(
+            cie1931_2deg().integrate(SpectralFunction(TabulatedShape{file.wavelength_nm, *basis[k]}, Outside::zero)));
+    // X = x (X + Y + Z) and Y = y (X + Y + Z) are linear in M1 and M2.
+    Eigen::RowVector3d const sum = xyz.colwise().sum();
+    Eigen::Matrix<double, 2, 3> rows;
+    rows << xyz.row(0) - white.x * sum, xyz.row(1) - white.y * sum;
+    Eigen::Vector2d const M = -rows.rightCols<2>().inverse() * rows.col(0);
+    TabulatedShape table{file.wavelength_nm, {}};
+    bool negative = false;
+    for (std::size_t i = 0; i < file.wavelength_nm.size(); ++i) {
+        table.value.push_back((*basis[0])[i] + M[0] * (*basis[1])[i] + M[1] * (*basis[2])[i]);
+        negative = negative || !(table.value.back() >= 0);
     }
-    return result;
+    if (negative) throw InputError({}, "", fmt::format("no daylight has the white ({}, {})", white.x, white.y));
+    return luminance_weighted(SpectralFunction(std::move(table), Outside::zero, "daylight"), 1, cie1931_2deg());
 }
 
-// Unknowns: b[k * knots + i], the value of basis function k at knot i. Minimise the squared second differences subject
-// to the colour of each primary and to sum_k b_k = 1; values that would leave [0, 1] are held at the bound (the active
-// set), found one round after the other.
-Eigen::VectorXd solve_basis() {
-    constexpr int unknowns = 3 * knots;
-    Eigen::Matrix3Xd const colours = hat_colours();
-    MatrixDouble const primaries = rgb::rec709.to_xyz_matrix();
-    MatrixDouble const white_scale =
-        to_vector(cie1931_2deg().integrate(unit_d65())).cwiseQuotient(primaries * VectorDouble::Ones()).asDiagonal();
-
-    Eigen::MatrixXd smooth = Eigen::MatrixXd::Zero(unknowns, unknowns);
-    for (int k = 0; k < 3; ++k)
-        for (int i = 1; i + 1 < knots; ++i) {
-            int const at = k * knots + i;
-            Eigen::Vector3d const d(1, -2, 1);
-            smooth.block<3, 3>(at - 1, at - 1) += d * d.transpose();
-        }
-    // Rows: colours of red and green (blue follows from the sum), then the sums.
-    std::vector<Eigen::VectorXd> rows;
-    std::vector<double> values;
-    for (int k = 0; k < 2; ++k)
-        for (int c = 0; c < 3; ++c) {
-            Eigen::VectorXd row = Eigen::VectorXd::Zero(unknowns);
-            row.segment(k * knots, knots) = colours.row(c);
-            rows.push_back(row);
-            values.push_back((white_scale * primaries)(c, k));
-        }
-    for (int i = 0; i < knots; ++i) {
-        Eigen::VectorXd row = Eigen::VectorXd::Zero(unknowns);
-        for (int k = 0; k < 3; ++k) row[k * knots + i] = 1;
-        rows.push_back(row);
-        values.push_back(1);
-    }
-
-    std::set<int> at_zero;
-    Eigen::VectorXd b;
-    constexpr int most_rounds = 100;
-    for (int round = 0; round < most_rounds; ++round) {
-        auto const constraints = static_cast<Eigen::Index>(rows.size() + at_zero.size());
-        Eigen::MatrixXd system = Eigen::MatrixXd::Zero(unknowns + constraints, unknowns + constraints);
-        Eigen::VectorXd right = Eigen::VectorXd::Zero(unknowns + constraints);
-        system.topLeftCorner(unknowns, unknowns) = 2 * smooth;
-        Eigen::Index at = unknowns;
-        auto const constrain = [&](Eigen::VectorXd const& row, double value) {
-            system.block(at, 0, 1, unknowns) = row.transpose();
-            system.block(0, at, unknowns, 1) = row;
-            right[at++] = value;
-        };
-        for (std::size_t i = 0; i < rows.size(); ++i) constrain(rows[i], values[i]);
-        for (int i : at_zero) constrain(Eigen::VectorXd::Unit(unknowns, i), 0);
-        // Where all but one are held at zero, the sum makes a row redundant: a rank-revealing factorisation.
-        b = system.completeOrthogonalDecomposition().solve(right).head(unknowns);
-        // Values below 0 go to the bound; since they sum to 1 and none is negative, none exceeds 1.
-        std::size_t const before = at_zero.size();
-        for (int i = 0; i < unknowns; ++i)
-            if (b[i] < -1e-12) at_zero.insert(i);
-        if (at_zero.size() == before) break;
-    }
-    for (double& value : b) value = std::clamp(value, 0.0, 1.0);  // what is left of -1e-12
-    return b;
+Uplift const& uplift_under(Chromaticity const& white) {
+    static std::map<std::pair<double, double>, Uplift> made;
+    static std::mutex guard;
+    std::lock_guard const lock(guard);
+    auto const found = made.find({white.x, white.y});
+    if (found != made.end()) return found->second;
+    SpectralFunction light = white == named_white("D65") ? unit_d65() : daylight_of(white);
+    SigmoidFitter const fitter(light, cie1931_2deg());
+    return made.emplace(std::pair(white.x, white.y), Uplift{std::move(light), fitter}).first->second;
 }
 
-[[noreturn]] void out_of_gamut(Eigen::Vector3d const& rec709, char const* allowed) {
-    throw InputError({}, "",
-                     fmt::format("in linear Rec.709 this colour is ({:.4g}, {:.4g}, {:.4g}); allowed: {}", rec709[0],
-                                 rec709[1], rec709[2], allowed));
+double lab_difference(VectorDouble const& a, VectorDouble const& b) {
+    Lab const p = to_lab(to_xyz(a), {1, 1, 1}), q = to_lab(to_xyz(b), {1, 1, 1});
+    return std::hypot(p.L - q.L, p.a - q.a, p.b - q.b);
+}
+
+[[noreturn]] void unreachable(Eigen::Vector3d const& rgb, Eigen::Vector3d const& nearest, double difference,
+                              RgbSpace const& space, RgbRole role) {
+    throw InputError(
+        {}, "",
+        fmt::format("no smooth {} has the colour ({:.4g}, {:.4g}, {:.4g}) of linear {}; the nearest found is "
+                    "({:.4g}, {:.4g}, {:.4g}), CIE 1976 difference {:.3g}",
+                    role == RgbRole::reflectance ? "reflectance" : "spectrum", rgb[0], rgb[1], rgb[2], space.name,
+                    nearest[0], nearest[1], nearest[2], difference));
+}
+
+// s S(c / s) for the first s that serves; of a reflectance, s = 1 alone.
+SpectralFunction fitted(Eigen::Vector3d const& rgb, RgbSpace const& space, RgbRole role) {
+    SigmoidFitter const& fitter = uplift_under(space.white).fitter;
+    MatrixDouble const matrix = space.to_xyz_matrix();
+    VectorDouble const white = to_vector(to_xyz(space.white, 1)), ratio = (matrix * rgb).cwiseQuotient(white);
+    bool const bounded = role == RgbRole::reflectance;
+    double const brightness = bounded ? 1 : 2 * std::max(rgb.cwiseAbs().maxCoeff(), 1e-300);
+    double difference = 0;
+    Eigen::Vector3d nearest;
+    for (int doublings = 0; doublings <= (bounded ? 0 : most_doublings); ++doublings) {
+        double const scale = std::ldexp(brightness, doublings);
+        SigmoidFit const fit = fitter.fit(ratio / scale);
+        difference = lab_difference(scale / brightness * fit.colour, ratio / brightness);
+        if (difference < reachable_difference)
+            return SpectralFunction(fit.sigmoid, Outside::extrapolate, "rgb").scaled(scale);
+        nearest = scale * matrix.inverse() * fit.colour.cwiseProduct(white);
+    }
+    unreachable(rgb, nearest, difference, space, role);
 }
 
 }  // namespace
@@ -119,42 +103,25 @@ SpectralFunction const& unit_d65() {
     return light;
 }
 
-std::array<SpectralFunction, 3> const& rec709_basis() {
-    static std::array<SpectralFunction, 3> const basis = [] {
-        Eigen::VectorXd const b = solve_basis();
-        auto const part = [&](int k) {
-            TabulatedShape table;
-            for (int i = 0; i < knots; ++i) {
-                table.nm.push_back(visible_range.min_nm + step_nm * i);
-                table.value.push_back(b[k * knots + i]);
-            }
-            return SpectralFunction(std::move(table), Outside::hold, "Rec.709 basis");
-        };
-        return std::array{part(0), part(1), part(2)};
-    }();
-    return basis;
-}
+SpectralFunction const& white_light(Chromaticity const& white) { return uplift_under(white).light; }
 
 SpectralFunction rgb_to_spectrum(Eigen::Vector3d const& rgb, RgbSpace const& space, RgbRole role) {
-    constexpr double slack = 1e-6;  // rounding of a colour on the gamut's edge
-    MatrixDouble const to_rec709 =
-        rgb::rec709.from_xyz_matrix() * bradford_adaptation(space.white, rgb::rec709.white) * space.to_xyz_matrix();
-    Eigen::Vector3d const c = space.name == rgb::rec709.name ? rgb : Eigen::Vector3d(to_rec709 * rgb);
-    if (c.minCoeff() < -slack) out_of_gamut(c, "components of at least 0");
-    if (role == RgbRole::reflectance && c.maxCoeff() > 1 + slack)
-        out_of_gamut(c, "components of a reflectance in 0 .. 1");
-    constexpr double rounding = 1e-12;  // of the matrices: the white of every space is the perfect reflector
-    if (role == RgbRole::reflectance && (c - Eigen::Vector3d::Ones()).cwiseAbs().maxCoeff() < rounding)
-        return SpectralFunction::constant(1);
+    if (!rgb.allFinite())
+        throw InputError({}, "", fmt::format("found ({}, {}, {}), but a colour is finite", rgb[0], rgb[1], rgb[2]));
+    double const grey = std::abs(rgb[0] - 1) <= rounding ? 1 : rgb[0];
+    bool const is_grey = (rgb.array() - grey).abs().maxCoeff() <= rounding * std::abs(grey);
+    bool const exists = grey >= 0 && (grey <= 1 || role != RgbRole::reflectance);
+    SpectralFunction const factor = is_grey && exists ? SpectralFunction::constant(grey) : fitted(rgb, space, role);
+    if (role != RgbRole::emission) return factor;
+    SpectralFunction const& light = white_light(space.white);
+    if (factor.is_constant()) return light.scaled(grey);
+    // The product as a table at 1 nm: linear between, where the sigmoid bends by less than its slope.
     TabulatedShape table;
-    for (double nm = visible_range.min_nm; nm <= visible_range.max_nm; ++nm) {
-        double value = 0;
-        for (std::size_t k = 0; k < 3; ++k)
-            value += std::max(0.0, c[static_cast<Eigen::Index>(k)]) * rec709_basis()[k].at(nm);
+    for (double nm = light.defined_on().min_nm; nm <= light.defined_on().max_nm; ++nm) {
         table.nm.push_back(nm);
-        table.value.push_back(role == RgbRole::reflectance ? std::min(value, 1.0) : value * unit_d65().at(nm));
+        table.value.push_back(factor.at(nm) * light.at(nm));
     }
-    return SpectralFunction(std::move(table), role == RgbRole::reflectance ? Outside::hold : Outside::zero, "rgb");
+    return SpectralFunction(std::move(table), Outside::zero, "rgb");
 }
 
 }  // namespace iride

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "colour/rec709_basis.h"
 #include "colour/rgb_to_spectrum.h"
 #include "scene/readers.h"
 

@@ -98,7 +98,9 @@ TEST_CASE("reflectances outside 0 .. 1 are refused", "[input]") {
     CHECK_THAT(
         refusal(with(
             R"("materials": { "a": { "type": "diffuse", "reflectance": { "rgb": [0, 1, 0], "space": "ACEScg" } } })")),
-        Contains("in linear Rec.709 this colour is"));
+        Contains("materials.a.reflectance.rgb: no smooth reflectance has the colour (0, 1, 0) of linear ACEScg; the "
+                 "nearest found is") &&
+            Contains("CIE 1976 difference"));
 }
 TEST_CASE("an n, k table must cover the render range", "[input]") {
     CHECK_THAT(refusal(with(R"("materials": { "a": { "type": "dielectric", "ior": "SF11" } })")),

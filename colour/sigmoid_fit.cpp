@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "colour/sigmoid_fit.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "colour/lab.h"
+
+namespace iride {
+
+namespace {
+
+constexpr double step_nm = 2.5;
+constexpr double converged = 1e-8;  // CIE 1976 difference that is none
+
+VectorDouble lab_of(VectorDouble const& ratio) {
+    Lab const lab = to_lab(to_xyz(ratio), {1, 1, 1});
+    return {lab.L, lab.a, lab.b};
+}
+
+// d(L*, a*, b*) / d(X/Xn, Y/Yn, Z/Zn), of the formulas in colour/lab.h.
+MatrixDouble lab_derivative(VectorDouble const& ratio) {
+    constexpr double delta = 6.0 / 29;
+    VectorDouble const f = ratio.unaryExpr(
+        [](double t) { return t > delta * delta * delta ? 1 / (3 * square(std::cbrt(t))) : 1 / (3 * delta * delta); });
+    MatrixDouble d;
+    d << 0, 116 * f[1], 0, 500 * f[0], -500 * f[1], 0, 0, 200 * f[1], -200 * f[2];
+    return d;
+}
+
+// x of the constant reflectance `value`: the inverse of 1/2 + x / (2 sqrt(1 + x^2)).
+double grey_argument(double value) { return (value - 0.5) / std::sqrt(value * (1 - value)); }
+
+}  // namespace
+
+SigmoidFitter::SigmoidFitter(SpectralFunction const& light, Observer const& observer) {
+    auto const nm = [](int knot) { return visible_range.min_nm + step_nm * knot; };
+    for (int i = 0; i < knots; ++i)
+        t_[static_cast<std::size_t>(i)] =
+            (2 * nm(i) - visible_range.min_nm - visible_range.max_nm) / visible_range.width();
+    VectorDouble total = VectorDouble::Zero();
+    double const offset = 0.5 / std::sqrt(3.0);  // two-point Gauss rule in every nanometre
+    for (double start = visible_range.min_nm; start < visible_range.max_nm; ++start)
+        for (double const at : {start + 0.5 - offset, start + 0.5 + offset}) {
+            VectorDouble const density = light.at(at) * to_vector(observer.at(at));
+            total += density;
+            int const first = std::clamp(static_cast<int>((at - visible_range.min_nm) / step_nm) - 1, 0, knots - 4);
+            for (int i = first; i < first + 4; ++i) {
+                double cardinal = 1;
+                for (int j = first; j < first + 4; ++j)
+                    if (j != i) cardinal *= (at - nm(j)) / (nm(i) - nm(j));
+                for (std::size_t c = 0; c < 3; ++c)
+                    weight_[c][static_cast<std::size_t>(i)] += cardinal * density[static_cast<Eigen::Index>(c)];
+            }
+        }
+    for (std::size_t c = 0; c < 3; ++c)
+        for (double& weight : weight_[c]) weight /= total[static_cast<Eigen::Index>(c)];
+}
+
+struct SigmoidFitter::Evaluation {
+    VectorDouble ratio;       // XYZ over the light's
+    MatrixDouble derivative;  // by the three coefficients
+    double steepest;          // per nm
+};
+
+SigmoidFitter::Evaluation SigmoidFitter::evaluate(VectorDouble const& p) const {
+    // Sums side by side, so that the compiler may use whole registers: S and S' times t^0, t^1, t^2.
+    constexpr std::size_t lanes = 8;
+    double sum[3][4][lanes] = {}, steepest[lanes] = {};
+    for (std::size_t i = 0; i < padded; i += lanes)
+        for (std::size_t l = 0; l < lanes; ++l) {
+            double const t = t_[i + l], x = (p[0] * t + p[1]) * t + p[2], inverse = 1 / std::sqrt(1 + x * x);
+            double const value = 0.5 + 0.5 * x * inverse, slope = 0.5 * inverse * inverse * inverse;
+            steepest[l] = std::max(steepest[l], slope * std::abs(2 * p[0] * t + p[1]));
+            for (std::size_t c = 0; c < 3; ++c) {
+                double const w = weight_[c][i + l], wd = w * slope;
+                sum[c][0][l] += w * value;
+                sum[c][1][l] += wd * t * t;
+                sum[c][2][l] += wd * t;
+                sum[c][3][l] += wd;
+            }
+        }
+    Evaluation result{VectorDouble::Zero(), MatrixDouble::Zero(),
+                      *std::max_element(steepest, steepest + lanes) * 2 / visible_range.width()};
+    for (Eigen::Index c = 0; c < 3; ++c)
+        for (std::size_t l = 0; l < lanes; ++l) {
+            auto const& s = sum[c];
+            result.ratio[c] += s[0][l];
+            result.derivative.row(c) += Eigen::RowVector3d(s[1][l], s[2][l], s[3][l]);
+        }
+    return result;
+}
+
+SigmoidFit SigmoidFitter::fit(VectorDouble const& wanted) const {
+    constexpr double rounding = 1e-12;  // relative: a grey that came through matrices is a grey
+    double const Y = wanted[1];
+    if ((wanted.array() - Y).abs().maxCoeff() <= rounding * std::max(Y, 0.0) && Y > 0 && Y < 1)
+        return {{0, 0, grey_argument(Y)}, VectorDouble::Constant(Y), 0};
+    constexpr double least = 1e-3;  // reflectance to start from: at 0 and 1 the sigmoid has no slope
+    SigmoidFit const from_grey = fit(wanted, {0, 0, grey_argument(std::clamp(Y, least, 1 - least))});
+    constexpr double dark = 0.1;
+    if (from_grey.difference <= converged || wanted.maxCoeff() > dark || !(wanted.minCoeff() > 0)) return from_grey;
+    // A dark saturated colour lies in the flat tail of the sigmoid: come from a brighter one.
+    SigmoidFit const from_bright = fit(wanted, fit(2 * wanted).sigmoid);
+    return from_bright.difference < from_grey.difference ? from_bright : from_grey;
+}
+
+SigmoidFit SigmoidFitter::fit(VectorDouble const& wanted, SigmoidShape const& start) const {
+    constexpr int most_rounds = 300;
+    constexpr double most_damping = 1e12;  // no step downhill is left
+    VectorDouble const target = lab_of(wanted);
+    VectorDouble p(start.a, start.b, start.c);
+    Evaluation here = evaluate(p);
+    VectorDouble residual = lab_of(here.ratio) - target;
+    double damping = 1e-3;
+    for (int round = 0; round < most_rounds && residual.norm() > converged && damping < most_damping; ++round) {
+        MatrixDouble const jacobian = lab_derivative(here.ratio) * here.derivative;
+        MatrixDouble normal = jacobian.transpose() * jacobian;
+        normal.diagonal() *= 1 + damping;
+        VectorDouble const next = p - normal.inverse() * (jacobian.transpose() * residual);
+        Evaluation const there = evaluate(next);
+        VectorDouble const rest = lab_of(there.ratio) - target;
+        if (rest.norm() < residual.norm() && there.steepest < steepest_reflectance) {
+            p = next, here = there, residual = rest;
+            damping = std::max(damping / 10, 1e-12);
+        } else {
+            damping *= 4;
+        }
+    }
+    return {{p[0], p[1], p[2]}, here.ratio, residual.norm()};
+}
+
+}  // namespace iride

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// The reflectance of a colour: the sigmoid of a quadratic polynomial (SigmoidShape) whose colour under a light is the
+// wanted one, by Levenberg's and Marquardt's damped Gauss-Newton method in double, residual and metric CIE 1976 L*a*b*.
+// The limits of the family are the steps between 0 and 1 with at most two transitions, which bound all reflectances, so
+// every colour that some reflectance has, they approach. Here the slope is bounded, so that a spectrum is smooth and 1
+// nm tables hold it; of a colour beyond that, the nearest found is told. [Jakob 2019]
+#pragma once
+
+#include <array>
+
+#include "base/vector.h"
+#include "colour/observer.h"
+
+namespace iride {
+
+// The steepest a fitted reflectance may be, per nm: a transition from 0 to 1 takes 5 nm at least.
+inline constexpr double steepest_reflectance = 0.2;
+
+struct SigmoidFit {
+    SigmoidShape sigmoid;
+    VectorDouble colour;  // that it has: XYZ over the light's XYZ, as in `wanted`
+    double difference;    // CIE 1976, to the wanted colour
+};
+
+class SigmoidFitter {
+  public:
+    SigmoidFitter(SpectralFunction const& light, Observer const& observer);
+
+    // `wanted`: XYZ over the light's XYZ, the perfect reflector being (1, 1, 1). A grey is exactly the constant.
+    // `start`: of a nearby colour, saves rounds; without it, the grey of the same luminance. Ten to twenty
+    // microseconds.
+    SigmoidFit fit(VectorDouble const& wanted) const;
+    SigmoidFit fit(VectorDouble const& wanted, SigmoidShape const& start) const;
+
+  private:
+    struct Evaluation;
+    Evaluation evaluate(VectorDouble const& coefficients) const;
+
+    // Quadrature over 360 .. 830 nm: weights of light times observer for reflectances sampled every 2.5 nm and cubic
+    // between (Lagrange, the two nearest samples on either side).
+    static constexpr int knots = 189, padded = 192;
+    std::array<double, padded> t_{};                      // wavelength as SigmoidShape takes it
+    std::array<std::array<double, padded>, 3> weight_{};  // of X, Y, Z; each sums to 1
+};
+
+}  // namespace iride
