@@ -38,6 +38,6 @@ TEST_CASE("the arctangent errs by less than 2.5e-7, relative", "[law]") {
         worst = std::max(worst, std::abs(static_cast<double>(arctangent(y, x)) / wanted - 1));
     }
     CHECK(worst < 2.5e-7);
-    CHECK(arctangent(0, 0) == 0);
-    CHECK(arctangent(0, -1) == pi);
+    CHECK(arctangent(0.0f, 0.0f) == 0);
+    CHECK(arctangent(0.0f, -1.0f) == pi);
 }
