@@ -144,8 +144,8 @@ int run_render(Options const& o) {
     apply_size(*scene, o.size);
     Outputs const out = outputs_of(o, *scene);
     output_space(o.colourspace, scene->film.white);  // to refuse an unknown one before any work
-    std::optional<DisplayPipeline> display;
-    if (!out.preview.empty()) display.emplace(o.ocio, "", o.view);
+    std::optional<ColourTransform> display;
+    if (!out.preview.empty()) display = ColourConfig(o.ocio).to_display("", o.view);
     RenderPlan const plan = make_plan(*scene);
     std::string const name = o.integrator.empty() ? scene->render.integrator : o.integrator;
     auto const integrator = make_integrator(name, plan);

@@ -12,7 +12,7 @@
 
 namespace iride {
 
-void write_preview(Film const& film, Chromaticity const& scene_white, double exposure, DisplayPipeline const& display,
+void write_preview(Film const& film, Chromaticity const& scene_white, double exposure, ColourTransform const& display,
                    std::filesystem::path const& path) {
     auto image = to_image(film, output_space("ACEScg", scene_white), exposure);
     display.apply({image.pixel.front().data(), image.pixel.size() * 3});

@@ -4,13 +4,13 @@
 
 #include <filesystem>
 
-#include "colour/display_pipeline.h"
+#include "colour/colour_config.h"
 #include "film/exr.h"
 
 namespace iride {
 
 // 8 bits per channel, rounded to nearest, clamped to 0..1 after the view; a NaN pixel becomes magenta.
-void write_preview(Film const& film, Chromaticity const& scene_white, double exposure, DisplayPipeline const& display,
+void write_preview(Film const& film, Chromaticity const& scene_white, double exposure, ColourTransform const& display,
                    std::filesystem::path const& path);
 
 }  // namespace iride
