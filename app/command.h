@@ -22,5 +22,6 @@ Command add_render(CLI::App& app);
 Command add_scenes(CLI::App& app);
 Command add_plan(CLI::App& app);
 Command add_compare(CLI::App& app);
+Command add_colour(CLI::App& app);
 
 }  // namespace iride

@@ -15,9 +15,11 @@ namespace {
 
 using Transforms = std::vector<std::string>;
 
-constexpr char const* head = R"(ocio_profile_version: 2
+constexpr char const* head = R"(# SPDX-License-Identifier: Apache-2.0
+# Written by scripts/ocio_config.cpp from derived matrices; do not edit.
+ocio_profile_version: 2
 
-description: Iride - scene-linear ACES working space, CIE-managed displays, CIE spaces; no LUT files. Written by scripts/ocio_config from derived matrices.
+description: Iride - scene-linear ACES working space, CIE-managed displays, CIE spaces; no LUT files.
 environment: {}
 search_path: ""
 strictparsing: true
@@ -210,7 +212,7 @@ void add_rgb(std::vector<Space>& all) {
                 {"ACEScc",
                  "ACES",
                  "log",
-                 "ACES S-2014-003, logarithmic AP1 without toe; domain ACEScg > 0",
+                 "ACES S-2014-003, logarithmic AP1; clips ACES2065-1 below 0 by definition",
                  "acescc_ap1_scene",
                  {builtin("ACEScc_to_ACES2065-1", true)}},
                 {"ACEScct",
@@ -261,12 +263,12 @@ void add_rgb(std::vector<Space>& all) {
                  "Adobe RGB (1998), gamma 563/256",
                  "adobergb_tx, g22_adobergb_scene",
                  {to_linear(rgb::adobe_rgb), power(563.0 / 256)}},
-                {"Camera Rec.709",
+                {"Camera Rec.2020",
                  "Texture",
                  texture,
-                 "ITU-R BT.709 camera curve",
-                 "rec709_camera, itur709_rec709_scene",
-                 {to_linear(rgb::rec709), monitor_curve(1 / 0.45, 0.099)}}});
+                 "ITU-R BT.2020-2 camera curve, unrounded constants",
+                 "rec2020_camera",
+                 {to_linear(rgb::rec2020), monitor_curve(1 / 0.45, 0.09929682680944)}}});
 }
 
 // The CIE spaces under one white; `white` is its name.

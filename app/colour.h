@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+// The subcommands of iride colour, one per file: each adds its parser to the parent's.
+#pragma once
+
+#include "app/command.h"
+
+namespace iride {
+
+Command add_colour_check(CLI::App& colour);
+
+}  // namespace iride
