@@ -20,7 +20,7 @@ struct Options {
 
 void print_json(ColourConfig const& config, ConfigCheck const& check) {
     nlohmann::ordered_json spaces = nlohmann::ordered_json::array(), unchecked = nlohmann::ordered_json::array();
-    for (SpaceCheck const& s : check.spaces)
+    for (SpaceCheck const& s : check.spaces) {
         spaces.push_back({{"name", s.name},
                           {"recognised_as", s.recognised_as},
                           {"max_error", s.max_error},
@@ -31,6 +31,8 @@ void print_json(ColourConfig const& config, ConfigCheck const& check) {
                           {"negative", s.negative},
                           {"nan", s.nan},
                           {"ok", s.ok}});
+        if (!s.failure.empty()) spaces.back()["failure"] = s.failure;
+    }
     for (UncheckedSpace const& s : check.unchecked) unchecked.push_back({{"name", s.name}, {"reason", s.reason}});
     nlohmann::ordered_json const out{
         {"config", config.path().string()}, {"spaces", spaces}, {"unchecked", unchecked}, {"ok", check.ok}};
@@ -57,7 +59,9 @@ int run_check(Options const& o) {
         print_table(config, check);
     if (check.ok) return exit_done;
     for (SpaceCheck const& s : check.spaces)
-        if (!s.ok)
+        if (!s.failure.empty())
+            fmt::print(stderr, "iride: {}\n", s.failure);
+        else if (!s.ok)
             fmt::print(stderr, "iride: '{}' is not {}: CIEDE2000 {:.3g}, error {:.3g} (tolerable: {:g}, {:g})\n",
                        s.name, s.recognised_as, std::max(s.delta_e_2000_max, s.round_trip_delta_e_2000_max),
                        std::max(s.max_error, s.white_error), tolerable_delta_e, s.tolerance);

@@ -23,6 +23,9 @@ constexpr double darkest = 0x1p-10;
 // Scene colours beyond the white; differences are then seen under a white as bright.
 constexpr double bright = 16;
 
+// What an error counts as that is infinite or NaN, which JSON cannot say.
+constexpr double not_finite = std::numeric_limits<double>::max();
+
 // XYZ and white of a reference space, for colour differences.
 struct Reference {
     MatrixDouble to_xyz;
@@ -134,10 +137,10 @@ SpaceCheck check_space(ColourConfig const& config, ConfigSpace const& named, Ref
     std::string const role = space.display_referred ? "cie_xyz_d65_interchange" : "aces_interchange";
     ColourTransform const there = config.between(role, named.name), back = config.between(named.name, role);
     Reference const reference(space.display_referred);
-    SpaceCheck check{named.name, space.name, 0, tolerance_of(space.curve), 0, 0, 0, {}, {}, true};
+    SpaceCheck check{named.name, space.name, 0, tolerance_of(space.curve), 0, 0, 0, {}, {}, {}, true};
     auto const larger = [&](double& maximum, double error) {
         // A comparison with NaN is false: what is not finite must not pass for small.
-        if (!std::isfinite(error)) check.ok = false, error = std::numeric_limits<double>::max();
+        if (!std::isfinite(error)) check.ok = false, error = not_finite;
         maximum = std::max(maximum, error);
     };
     auto const compare = [&](Colours const& given, double exposure) {
@@ -165,6 +168,16 @@ SpaceCheck check_space(ColourConfig const& config, ConfigSpace const& named, Ref
     return check;
 }
 
+SpaceCheck checked_or_failed(ColourConfig const& config, ConfigSpace const& named, ReferenceSpace const& space) {
+    try {
+        return check_space(config, named, space);
+    } catch (InputError const& e) {
+        return {named.name, space.name, not_finite, tolerance_of(space.curve),
+                not_finite, not_finite, not_finite, "not finite",
+                "lost",     e.what(),   false};
+    }
+}
+
 }  // namespace
 
 ConfigCheck check_config(ColourConfig const& config) {
@@ -185,7 +198,7 @@ ConfigCheck check_config(ColourConfig const& config) {
         else if (space->display_referred && !displays)
             result.unchecked.push_back({named.name, "the config has no role cie_xyz_d65_interchange"});
         else
-            result.spaces.push_back(check_space(config, named, *space));
+            result.spaces.push_back(checked_or_failed(config, named, *space));
     }
     auto const passes = [](SpaceCheck const& check) { return check.ok; };
     result.ok = result.spaces.size() > 1 && std::ranges::all_of(result.spaces, passes);

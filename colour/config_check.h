@@ -19,6 +19,7 @@ struct SpaceCheck {
     double round_trip_delta_e_2000_max;  // there and back by the config alone
     std::string negative;                // linear values below 0: "kept" there and back, "clamped", "not finite"
     std::string nan;                     // a NaN given: "kept" or "lost"
+    std::string failure;                 // why the config has no way there and back; empty if it has
     bool ok;                             // errors within `tolerance`, differences below tolerable_delta_e, all finite
 };
 
