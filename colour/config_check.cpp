@@ -8,6 +8,7 @@
 
 #include "base/diagnostics.h"
 #include "base/random.h"
+#include "colour/difference.h"
 #include "colour/lab.h"
 #include "colour/reference_space.h"
 

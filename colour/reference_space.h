@@ -40,6 +40,8 @@ struct ReferenceSpace {
     VectorDouble from_reference(VectorDouble const& reference) const;
     // Not finite where the curve has no inverse.
     VectorDouble to_reference(VectorDouble const& value) const;
+    // Linear RGB or XYZ of a value.
+    VectorDouble decoded(VectorDouble const& value) const;
 };
 
 // Letters and digits alone, in lower case: "Linear Rec.709 (sRGB)" is "linearrec709srgb".

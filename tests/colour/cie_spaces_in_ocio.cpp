@@ -6,6 +6,7 @@
 
 #include "base/random.h"
 #include "colour/colour_config.h"
+#include "colour/difference.h"
 #include "colour/lab.h"
 #include "colour/observer.h"
 #include "colour/reference_space.h"
