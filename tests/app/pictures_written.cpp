@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "film/preview.h"
+#include "spectral/catalogue.h"
 #include "support/program.h"
 #include "support/scenes.h"
 
@@ -129,14 +130,15 @@ TEST_CASE("the preview's pixels are the view of the EXR's", "[app]") {
                "shapes": [{ "type": "sphere", "centre": [-1,0,0], "radius": 1, "material": { "type": "conductor", "ior": "Cu", "roughness": 0.3 } },
                           { "type": "sphere", "centre": [1,0,0], "radius": 1, "material": { "type": "diffuse", "reflectance": 0.04 } }] })")
                                   .string();
-    for (std::string const& view : display_views({})) {
+    ColourConfig const config(data_folder() / "ocio" / "config.ocio");
+    for (std::string const& view : config.views(config.displays().front())) {
         std::string const exr = (folder.path() / "a.exr").string(), png = (folder.path() / "a.png").string();
         auto const r =
             test::run_iride("render " + scene + " --spp 16 --view '" + view + "' -o " + exr + " --preview " + png);
         INFO(view << ": " << r.text);
         REQUIRE(r.code == 0);
         std::vector<float> wanted = channels_of(exr);
-        DisplayPipeline({}, "", view).apply(wanted);
+        config.to_display("", view).apply(wanted);
         std::vector<float> const shown = channels_of(png);
         REQUIRE(shown.size() == wanted.size());
         double worst = 0;

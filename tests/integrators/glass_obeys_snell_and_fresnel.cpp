@@ -36,15 +36,15 @@ Wavelengths packet_at(double nm, WavelengthGrid const& grid) {
 struct Surface {
     Hit hit;
     Bsdf bsdf;
+    Frame frame;
     Direction wo;
-
-    Direction to_world(Direction const& wi) const { return hit.point.frame.to_world(wi); }
 };
 Surface met(Scene const& scene, Ray const& ray, Wavelengths const& w) {
     RayStatistics statistics;
     auto const hit = scene.accelerator->closest(ray, statistics);
     REQUIRE(hit);
-    return {*hit, scene.material(hit->shape->material).at(hit->point, w), hit->point.frame.to_local(-ray.direction)};
+    Frame const frame = Frame::around(hit->point.normal);
+    return {*hit, scene.material(hit->shape->material).at(hit->point, w), frame, frame.to_local(-ray.direction)};
 }
 
 // Through the boundary: the number that chooses the lobe is as large as can be.
@@ -53,7 +53,7 @@ Ray refracted(Scene const& scene, Ray const& ray, Wavelengths const& w) {
     auto const sample = s.bsdf.sample(s.wo, {one_minus_epsilon, {.5f, .5f}});
     REQUIRE(sample);
     REQUIRE(sample->wi.z() * s.wo.z() < 0);
-    return spawn_ray(s.hit.point, s.to_world(sample->wi));
+    return spawn_ray(s.hit.point, s.frame.to_world(sample->wi));
 }
 
 // The prism's cross-section: its vertices 0, 1, 2, the light enters between 2 and 1 and leaves between 1 and 0.

@@ -57,7 +57,7 @@ TEST_CASE("a smooth metal plane under D65 shows the metal's colour at the angle 
 // n and k held constant, with Schlick's approximation of an R(0) at 550 nm, and under D65.
 TEST_CASE("the gold sphere of the metals' furnace has gold's colour under equal energy at its centre", "[law]") {
     auto const scene = load_scene(find_scene("metals-furnace"));
-    CHECK(scene->material(scene->shapes.front().material).has_density());  // rough
+    CHECK(scene->material(scene->shapes.front().material).traits.has_density);  // rough
     CHECK(scene->materials.front().name == "Au 0.05");
     scene->film.width = scene->film.height = 8;
     scene->camera.window = 0.02;

@@ -286,9 +286,8 @@ TEST_CASE("lights are chosen by their luminous power", "[law]") {
     constexpr int draws = 100000;
     for (std::uint32_t i = 0; i < draws; ++i) {
         auto const choice = scene->lights.choose(Sampler(SamplerKind::independent, 24, 0, i).next());
-        REQUIRE(choice);
-        ++count[static_cast<std::size_t>(choice->index)];
-        REQUIRE(choice->probability == scene->lights.probability(choice->index));
+        ++count[static_cast<std::size_t>(choice.index)];
+        REQUIRE(choice.probability == scene->lights.probability(choice.index));
     }
     for (int i = 0; i < 4; ++i) {
         double const p = power[static_cast<std::size_t>(i)] / total;
