@@ -27,8 +27,9 @@ struct ColourConfig::Config {
 
 namespace {
 
-// Pixels per call of OpenColorIO: its intermediate RGBA row of 64 KiB stays in the cache nearest but one.
-constexpr std::size_t block_pixels = 4096;
+// OpenColorIO allocates two RGBA rows per call. Pixels go to it as a picture of short rows, whatever the real width: 8
+// KiB each stay in the nearest cache, and are not given back to the system after a call, as long ones are.
+constexpr std::size_t row_pixels = 512, block_pixels = 64 * row_pixels;
 
 std::filesystem::path chosen_config(std::filesystem::path const& config) {
     if (!config.empty()) return config;
@@ -64,13 +65,17 @@ std::string chosen(std::filesystem::path const& config, char const* key, std::st
 }  // namespace
 
 void ColourTransform::apply(std::span<float> rgb, int threads) const {
-    auto const convert = [&](std::size_t begin, std::size_t end) {
-        ocio::PackedImageDesc image(rgb.data() + 3 * begin, static_cast<long>(end - begin), 1, 3);
+    auto const convert = [&](std::size_t begin, std::size_t width, std::size_t height) {
+        if (height == 0 || width == 0) return;
+        ocio::PackedImageDesc image(rgb.data() + 3 * begin, static_cast<long>(width), static_cast<long>(height), 3);
         processor_->cpu->apply(image);
     };
     std::size_t const pixels = rgb.size() / 3, blocks = (pixels + block_pixels - 1) / block_pixels;
     auto const convert_block = [&](std::size_t i) {
-        convert(i * block_pixels, std::min(pixels, (i + 1) * block_pixels));
+        std::size_t const begin = i * block_pixels, end = std::min(pixels, begin + block_pixels);
+        std::size_t const rows = (end - begin) / row_pixels, rest = (end - begin) % row_pixels;
+        convert(begin, row_pixels, rows);
+        convert(end - rest, rest, 1);
     };
     if (threads == 1 || blocks <= 1) {
         for (std::size_t i = 0; i < blocks; ++i) convert_block(i);
