@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // An OpenColorIO config: its spaces and views, and the transforms between them. The only place that includes
-// OpenColorIO. OpenColorIO works in float; with its lossless optimisation, so that logarithms and powers are those of
-// the mathematical library, not the faster approximations its default allows.
+// OpenColorIO. OpenColorIO works in float; with its lossless optimisation, since the default may take faster
+// approximations of logarithms and powers (in Debian's build it does not: the same bits).
 #pragma once
 
 #include <filesystem>
