@@ -2,6 +2,8 @@
 #include "integrators/render.h"
 
 #include <tbb/enumerable_thread_specific.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -143,6 +145,10 @@ RenderReport render(Scene const& scene, RenderPlan const& plan, Integrator const
     Loop loop(scene, plan, integrator, settings, film);
     RenderReport report;
     Clock::time_point const start = Clock::now();
+    // More threads than processors only if they are asked for.
+    std::optional<tbb::global_control> more;
+    if (settings.threads > tbb::info::default_concurrency())
+        more.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(settings.threads));
     tbb::task_arena arena(settings.threads > 0 ? settings.threads : tbb::task_arena::automatic);
     std::atomic<std::uint64_t> tiles_done{0};
     auto const share = [&] {
