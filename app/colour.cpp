@@ -9,7 +9,8 @@ namespace iride {
 
 namespace {
 
-constexpr std::array colour_commands{&add_colour_check};
+constexpr std::array colour_commands{&add_colour_spectrum, &add_colour_convert, &add_colour_difference,
+                                     &add_colour_check, &add_colour_diagram};
 
 }  // namespace
 

@@ -6,6 +6,10 @@
 
 namespace iride {
 
+Command add_colour_spectrum(CLI::App& colour);
+Command add_colour_convert(CLI::App& colour);
+Command add_colour_difference(CLI::App& colour);
 Command add_colour_check(CLI::App& colour);
+Command add_colour_diagram(CLI::App& colour);
 
 }  // namespace iride

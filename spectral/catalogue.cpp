@@ -64,11 +64,42 @@ bool serves(std::string const& column, SpectralQuantity quantity) {
     return !emission && !is_index(column);
 }
 
-std::string unknown(std::string const& name, SpectralQuantity quantity) {
-    std::string const near = nearest_name(name, catalogue_names(quantity));
+std::string unknown(std::string const& name, char const* wanted, std::vector<std::string> const& candidates) {
+    std::string const near = nearest_name(name, candidates);
     return fmt::format(
-        "'{}' is neither a shipped {} nor a file{}", name, described(quantity),
+        "'{}' is neither a shipped {} nor a file{}", name, wanted,
         near.empty() ? std::string("; data/README.md lists the names") : fmt::format("; did you mean '{}'?", near));
+}
+
+std::string unknown(std::string const& name, SpectralQuantity quantity) {
+    return unknown(name, described(quantity), catalogue_names(quantity));
+}
+
+// The path of a file named as "file" or "file:column"; `column` is empty for the former.
+std::pair<std::filesystem::path, std::string> file_and_column(std::string const& name,
+                                                              std::filesystem::path const& folder) {
+    auto const colon = name.rfind(':');
+    if (std::filesystem::exists(folder / name) || colon == std::string::npos) return {folder / name, ""};
+    return {folder / name.substr(0, colon), name.substr(colon + 1)};
+}
+
+std::optional<SpectralQuantity> quantity_of_column(std::string const& column) {
+    if (is_index(column)) return SpectralQuantity::complex_index;
+    if (column == "power" || column == "radiance") return SpectralQuantity::power;
+    if (column == "transmittance") return SpectralQuantity::transmittance;
+    if (column == "reflectance") return SpectralQuantity::reflectance;
+    return {};
+}
+
+std::optional<SpectralQuantity> quantity_of_file(SpectrumFile const& file) {
+    if (!file.formula.empty() || file.column.contains("k")) return SpectralQuantity::complex_index;
+    for (auto const& [word, quantity] : {std::pair{"reflect", SpectralQuantity::reflectance},
+                                         {"transmit", SpectralQuantity::transmittance},
+                                         {"power", SpectralQuantity::power},
+                                         {"radian", SpectralQuantity::power},
+                                         {"emission", SpectralQuantity::power}})
+        if (file.quantity.find(word) != std::string::npos) return quantity;
+    return file.column_order.size() == 1 ? quantity_of_column(file.column_order.front()) : std::nullopt;
 }
 
 TabulatedShape table_of(SpectrumFile const& file, std::string const& column) {
@@ -107,6 +138,20 @@ std::vector<std::string> catalogue_names(SpectralQuantity quantity) {
 
 bool in_catalogue(std::string const& name) { return catalogue().contains(name); }
 
+std::optional<SpectralQuantity> stated_quantity(std::string const& name, std::filesystem::path const& folder) {
+    for (auto const& [known, entry] : catalogue())
+        if (known == name || (known.starts_with(name + ":") && !std::filesystem::exists(folder / name) &&
+                              !is_index(entry.column) && !serves(entry.column, SpectralQuantity::power)))
+            return quantity_of_column(entry.column).value_or(SpectralQuantity::reflectance);
+    std::filesystem::path const path = file_and_column(name, folder).first;
+    if (!std::filesystem::exists(path)) {
+        std::vector<std::string> names;
+        for (auto const& [known, entry] : catalogue()) names.push_back(known);
+        fail(unknown(name, "spectrum", names));
+    }
+    return quantity_of_file(read_spectrum_file(path));
+}
+
 ComplexIndex load_complex_index(std::string const& name, std::filesystem::path const& folder) {
     auto const entry = catalogue().find(name);
     std::filesystem::path path = folder / name;
@@ -137,13 +182,7 @@ SpectralFunction load_spectrum(std::string const& name, SpectralQuantity quantit
         if (!file.formula.empty()) return SpectralFunction(file.formula.front(), outside, name);
         return SpectralFunction(table_of(file, entry->second.column), outside, name);
     }
-    // A path, perhaps with ":column".
-    std::filesystem::path path = folder / name;
-    std::string column;
-    if (auto const colon = name.rfind(':'); !std::filesystem::exists(path) && colon != std::string::npos) {
-        path = folder / name.substr(0, colon);
-        column = name.substr(colon + 1);
-    }
+    auto const [path, column] = file_and_column(name, folder);
     if (!std::filesystem::exists(path)) fail(unknown(name, quantity));
     SpectrumFile const file = read_spectrum_file(path);
     if (!file.formula.empty()) return SpectralFunction(file.formula.front(), outside, name);

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -43,6 +44,11 @@ std::filesystem::path data_folder();
 // Every name of the catalogue of the given quantity, for messages and listings.
 std::vector<std::string> catalogue_names(SpectralQuantity quantity);
 bool in_catalogue(std::string const& name);
+
+// What a name of the catalogue, a group of it or a file says it holds, a light's kinds both as `power`: the catalogue's
+// column, the header line "quantity" or the columns' names of a file. Absent if nothing says it. Throws InputError:
+// neither name nor file (with the nearest name), or a file that cannot be read.
+std::optional<SpectralQuantity> stated_quantity(std::string const& name, std::filesystem::path const& folder = {});
 
 // By catalogue name ("Au", "Au:McPeak", "N-BK7", "D65", "cornell:white") or, if `name` is no catalogue name, by path
 // (relative to `folder`), a column of a file with several as "file.csv:column". Throws InputError: unknown name (with
