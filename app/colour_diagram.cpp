@@ -44,9 +44,9 @@ Plane plane_of(std::string const& space) {
                 [](PlotPoint const& p) {
                     return Chromaticity{p.x, p.y};
                 },
-                {-0.02, 0.80, 0.1, "x"},
+                {-0.08, 0.80, 0.1, "x"},
                 {-0.02, 0.90, 0.1, "y"},
-                1394,
+                1496,
                 1564,
                 {0.525, 0.885}};
     if (space == "uv")
@@ -57,11 +57,11 @@ Plane plane_of(std::string const& space) {
                 [](PlotPoint const& p) {
                     return to_chromaticity(UvPrime{p.x, p.y});
                 },
-                {-0.02, 0.66, 0.1, "u′"},
+                {-0.06, 0.66, 0.1, "u′"},
                 {-0.02, 0.62, 0.1, "v′"},
-                1564,
+                1656,
                 1472,
-                {0.435, 0.265}};
+                {0.45, 0.23}};
     throw InputError({}, "--space", fmt::format("unknown diagram '{}'{}", space, suggestion(space, {"xy", "uv"})));
 }
 
@@ -95,18 +95,18 @@ void draw_locus(Plot& page, Plane const& plane, SpectralLocus const& locus) {
 void label_locus(Plot& page, Plane const& plane, SpectralLocus const& locus) {
     std::vector<PlotPoint> const points = on_plane(plane, locus.points());
     std::vector<double> const& nm = locus.wavelengths_nm();
+    constexpr std::size_t around = 3;  // nanometres to both sides that give the direction: the tables' ends are rounded
+    constexpr int last_nm = 700;       // beyond, the locus stands still
+    constexpr double tick_px = 12;
     for (int const step : {100, 50, 20, 10})
-        for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+        for (std::size_t i = around; i + around < points.size(); ++i) {
             int const whole = static_cast<int>(std::lround(nm[i]));
-            if (whole % step != 0 || std::abs(nm[i] - whole) > 1e-6) continue;
+            if (whole % step != 0 || whole > last_nm) continue;
             // Outwards: the locus runs from violet to red clockwise, so to the left of its direction.
-            double const tx = points[i + 1].x - points[i - 1].x, ty = points[i + 1].y - points[i - 1].y;
-            double const length = std::hypot(tx, ty);
-            if (length == 0 || !page.label(std::to_string(whole), points[i], -ty, tx)) continue;
-            double const tick = 0.008;  // of the axes' unit
-            page.line(
-                std::array{points[i], PlotPoint{points[i].x - ty / length * tick, points[i].y + tx / length * tick}},
-                {{0, 0, 0}, 2.5});
+            double const tx = points[i + around].x - points[i - around].x,
+                         ty = points[i + around].y - points[i - around].y;
+            if (page.label(std::to_string(whole), points[i], -ty, tx, false, tick_px + 6))
+                page.tick(points[i], -ty, tx, tick_px, {{0, 0, 0}, 2.5});
         }
 }
 
@@ -222,7 +222,7 @@ int run_diagram(Options const& o) {
     label_locus(page, plane, locus);
     for (Mark const& m : marks) page.disc(m.at, 7, {0, 0, 0});
     label_planckian(page, plane, planckian);
-    page.label("D65", plane.at(rgb::rec709.white), 1, 1, true);
+    page.label("D65", plane.at(rgb::rec709.white), -1, 0.2, true);
     for (Mark const& m : marks)
         if (!page.label(m.name, m.at, 1, 0.3, true))
             fmt::print(stderr, "iride: no room for the name of '{}' in the diagram\n", m.name);

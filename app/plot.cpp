@@ -235,6 +235,15 @@ void Plot::cross(PlotPoint const& at, Stroke const& stroke) {
     if (!stroke.legend.empty()) entries_.push_back(stroke);
 }
 
+void Plot::tick(PlotPoint const& at, double dx, double dy, double length_px, Stroke const& stroke) {
+    auto const [x, y] = pixel(at);
+    double const scale = length_px / std::hypot(dx, dy);
+    use(stroke);
+    cairo_move_to(cairo_.get(), x, y);
+    cairo_line_to(cairo_.get(), x + scale * dx, y - scale * dy);
+    cairo_stroke(cairo_.get());
+}
+
 void Plot::reserve(PlotPoint const& at, double radius) {
     auto const [x, y] = pixel(at);
     taken_.push_back({x - radius, y - radius, x + radius, y + radius});
@@ -246,16 +255,16 @@ bool Plot::is_free(Box const& b) const {
                                 [&](Box const& t) { return b.x0 < t.x1 && t.x0 < b.x1 && b.y0 < t.y1 && t.y0 < b.y1; });
 }
 
-bool Plot::label(std::string const& words, PlotPoint const& at, double dx, double dy, bool anywhere) {
+bool Plot::label(std::string const& words, PlotPoint const& at, double dx, double dy, bool anywhere, double away_px) {
     auto const [x, y] = pixel(at);
     double const w = text_width(words), h = font_size * 0.8, first = std::atan2(dy, dx);
-    constexpr double nearest_px = 14, step_px = 16;
-    constexpr int directions = 12, rings = 6;
+    constexpr double step_px = 16;
+    constexpr int directions = 12, rings = 10;
     for (int ring = 0; ring < (anywhere ? rings : 1); ++ring)
         for (int i = 0; i < (anywhere ? directions : 1); ++i) {
             // Alternately to both sides of the direction wished for.
             double const turn = (i % 2 ? 1 : -1) * ((i + 1) / 2) * 2 * std::numbers::pi / directions;
-            double const away = nearest_px + ring * step_px, ux = std::cos(first + turn), uy = std::sin(first + turn);
+            double const away = away_px + ring * step_px, ux = std::cos(first + turn), uy = std::sin(first + turn);
             double const cx = x + ux * (away + w / 2), cy = y - uy * (away + h / 2);
             Box const box{cx - w / 2 - 3, cy - h / 2 - 3, cx + w / 2 + 3, cy + h / 2 + 3};
             if (!is_free(box)) continue;
@@ -279,6 +288,7 @@ void Plot::legend(std::optional<PlotPoint> const& top_left) {
     auto const [x, y] = top_left ? pixel(*top_left) : PlotPoint{left + width_ + 24.0, top};
     double const rows = static_cast<double>(entries_.size());
     if (top_left) {
+        taken_.push_back({x, y, x + legend_line + widest + 3 * legend_margin, y + legend_row * rows + legend_margin});
         cairo_rectangle(c, x, y, legend_line + widest + 3 * legend_margin, legend_row * rows + legend_margin);
         cairo_set_source_rgba(c, 1, 1, 1, 0.9);
         cairo_fill_preserve(c);

@@ -54,9 +54,13 @@ class Plot {
     void disc(PlotPoint const& at, double radius_px, PlotColour const& colour);
     void cross(PlotPoint const& at, Stroke const& stroke);
 
-    // Text beside a point, off in direction (dx, dy) of the page, y upwards, if it covers no other text there, else a
-    // little farther or in one of the directions around it if `anywhere`; false if there is no room.
-    bool label(std::string const& text, PlotPoint const& at, double dx, double dy, bool anywhere = false);
+    // A stroke of a few pixels from a point in direction (dx, dy) of the page, y upwards.
+    void tick(PlotPoint const& at, double dx, double dy, double length_px, Stroke const& stroke);
+
+    // Text beside a point, `away_px` off in direction (dx, dy) of the page, y upwards, if it covers no other text
+    // there, else a little farther or in one of the directions around it if `anywhere`; false if there is no room.
+    bool label(std::string const& text, PlotPoint const& at, double dx, double dy, bool anywhere = false,
+               double away_px = 14);
     // Keeps labels away from a point.
     void reserve(PlotPoint const& at, double radius_px);
 
