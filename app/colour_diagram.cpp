@@ -105,7 +105,8 @@ void label_locus(Plot& page, Plane const& plane, SpectralLocus const& locus) {
             // Outwards: the locus runs from violet to red clockwise, so to the left of its direction.
             double const tx = points[i + around].x - points[i - around].x,
                          ty = points[i + around].y - points[i - around].y;
-            if (page.label(std::to_string(whole), points[i], -ty, tx, false, tick_px + 6))
+            if (page.label(fmt::format(whole == last_nm ? "{} nm" : "{}", whole), points[i], -ty, tx, false,
+                           tick_px + 6))
                 page.tick(points[i], -ty, tx, tick_px, {{0, 0, 0}, 2.5});
         }
 }
@@ -143,8 +144,8 @@ void label_planckian(Plot& page, Plane const& plane, PlanckianLocus const& locus
         auto const point = [&](double s) { return plane.at(to_chromaticity(Uv1960{c.u + s * nu, c.v + s * nv})); };
         PlotPoint const below = point(1), above = point(-1), low = below.y < above.y ? below : above,
                         high = below.y < above.y ? above : below;
-        page.line(std::array{low, high}, {{0, 0, 0}, 2});
-        page.label(fmt::format("{} K", T), low, low.x - high.x, low.y - high.y);
+        if (page.label(fmt::format("{} K", T), low, low.x - high.x, low.y - high.y))
+            page.line(std::array{low, high}, {{0, 0, 0}, 2});
     }
 }
 
