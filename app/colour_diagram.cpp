@@ -105,7 +105,7 @@ void label_locus(Plot& page, Plane const& plane, SpectralLocus const& locus) {
             // Outwards: the locus runs from violet to red clockwise, so to the left of its direction.
             double const tx = points[i + around].x - points[i - around].x,
                          ty = points[i + around].y - points[i - around].y;
-            if (page.label(fmt::format(whole == last_nm ? "{} nm" : "{}", whole), points[i], -ty, tx, false,
+            if (page.label(fmt::format("{}{}", whole, whole == last_nm ? " nm" : ""), points[i], -ty, tx, false,
                            tick_px + 6))
                 page.tick(points[i], -ty, tx, tick_px, {{0, 0, 0}, 2.5});
         }

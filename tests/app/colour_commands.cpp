@@ -73,8 +73,10 @@ TEST_CASE("colour convert adapts white to white", "[app]") {
                       {100, 0, 0}, 1e-10);
     json const grey = answer("convert --json --from Lab --to linear-sRGB --white A 50 0 0")["value"];
     check_numbers(grey, {.18418651851, .18418651851, .18418651851}, 1e-10);
-    check_numbers(answer("convert --json --from XYZ --to linear-sRGB --white E --adaptation none 1 1 1")["value"],
-                  {1.2048, .9483, .9088}, 1e-4);  // row sums of the published matrix from XYZ
+    // Without adaptation D65's own XYZ is white, under whatever white it stands.
+    check_numbers(answer(fmt::format("convert --json --from XYZ --to linear-sRGB --white E --adaptation none {} 1 {}",
+                                     .3127 / .3290, .3583 / .3290))["value"],
+                  {1, 1, 1}, 1e-12);
 }
 
 TEST_CASE("colour convert streams lines of numbers and stops at a bad one, naming it", "[app]") {
@@ -179,7 +181,7 @@ TEST_CASE("bad input of the colour commands ends with a message, exit code 2 and
     check_refused("difference --formula cie2001 50 0 0 50 0 0", "did you mean 'cie2000'");
     check_refused("difference --formula cie2000 50 0 0 50 0", "six numbers");
     check_refused("difference --formula cie2000 50 0 nan 50 0 0", "finite");
-    check_refused("difference --formula cie2000 50 0 1e300 50 0 0", "too large");
+    check_refused("difference --formula cie2000 50 0 1e300 50 0 0", "finite");
     check_refused("spectrum D66 --json", "did you mean 'D65'");
     check_refused("spectrum Au", "index of refraction");
     check_refused("spectrum D65 --observer cie1932_2deg", "cie1931_2deg");
