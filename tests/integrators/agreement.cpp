@@ -74,18 +74,21 @@ void check_agreement(std::string const& name, std::string const& text) {
 
 }  // namespace
 
-// Fails when the light sample's divisor leaves out p_bsdf (Lambert scene: +30 %), when a dispersive transmission keeps
-// reach 1 in all lanes (glass: colours), and when the emitter found by scattering is not weighted.
+// Fails when the light sample's divisor leaves out p_bsdf, when the emitter found by scattering is not weighted, and
+// when shadow rays are ignored. What both integrators share (closures, roulette) is not seen here.
 TEST_CASE("path and its reference agree: diffuse under a rectangle", "[law]") {
     check_agreement("rectangle",
                     scene_text(view, R"("shapes": [)" + floor_quad + "," + lamp + "," +
                                          sphere(R"({ "type": "diffuse", "reflectance": "cornell:red" })") + "]"));
 }
+// Fails when the light sample's divisor leaves out p_bsdf, and when the emitter found by scattering is not weighted.
 TEST_CASE("path and its reference agree: rough gold under a sphere lamp", "[law]") {
     check_agreement("sphere lamp",
                     scene_text(view, R"("shapes": [)" + floor_quad + "," + big_lamp_sphere + "," +
                                          sphere(R"({ "type": "conductor", "ior": "Au", "roughness": 0.3 })") + "]"));
 }
+// Fails when the reach is not multiplied along the path, when the environment found by scattering is not weighted, and
+// when the light sample's divisor leaves out the probability of the choice among lights.
 TEST_CASE("path and its reference agree: dispersive glass under a rectangle and sky", "[law]") {
     check_agreement(
         "glass",
@@ -102,6 +105,7 @@ TEST_CASE("path and its reference agree: mirror, disc and cylinder lamps", "[law
                 R"(, { "type": "disc", "centre": [-1.5,2,0], "normal": [0.3,-1,0], "radius": 0.9, "material": { "type": "black" }, "emission": { "radiance": 2 } })"
                 R"(, { "type": "cylinder", "from": [1.4,0.3,0.5], "to": [1.6,1.9,0.9], "radius": 0.4, "material": { "type": "diffuse", "reflectance": 0.5 }, "emission": { "radiance": 1.5 } }])"));
 }
+// Fails when neither density of a triangle lamp has the probability of the triangle.
 TEST_CASE("path and its reference agree: a mesh and a crooked quad as lamps", "[law]") {
     check_agreement(
         "mesh lamp",
@@ -119,6 +123,7 @@ TEST_CASE("path and its reference agree: an instanced, squashed cone under a spo
                     { "type": "point", "position": [-1,2,-2], "intensity": 3 }, { "type": "distant", "direction": [0.2,-1,0.3], "irradiance": 0.5 } ])"));
 }
 
+// Fails when the environment found by scattering is not weighted.
 TEST_CASE("a white sphere in a furnace disappears", "[law]") {
     auto const scene =
         test::scene_from(scene_text(view, R"("lights": [{ "type": "environment", "radiance": 1 }], "shapes": [)" +
@@ -126,5 +131,21 @@ TEST_CASE("a white sphere in a furnace disappears", "[law]") {
     Film const film = test::rendered(*scene, "path", {.spp = 256, .seed = 3});
     for (int y = 0; y < film.height(); ++y)
         for (int x = 0; x < film.width(); ++x)
-            CHECK(film.mean(x, y).Y == Approx(1).margin(4 * std::sqrt(film.variance(x, y).Y) + 1e-5));
+            CHECK(std::abs(film.mean(x, y).Y - 1) < 4.5 * std::sqrt(film.variance(x, y).Y) + 1e-5);  // 1e-3 / 144
+}
+
+// L = Le / (1 - rho) = 2, and long paths. Fails for a roulette that does not divide by its probability, in which both
+// integrators agree.
+TEST_CASE("both integrators find 2 in the uniform cube", "[law]") {
+    auto const scene = load_scene(find_scene("cube-uniform"));
+    scene->film.width = scene->film.height = 8;
+    for (char const* integrator : {"path", "reference_path"}) {
+        auto const m = picture_mean(test::rendered(*scene, integrator, {.spp = 1024, .seed = 13}));
+        INFO(integrator);
+        constexpr double level = 3.8;  // normal quantile of 1e-3 / (2 x 6)
+        for (Moments const& c : m) {
+            CHECK(std::abs(c.mean - 2) < level * std::sqrt(c.variance));
+            CHECK(c.variance < square(0.01));
+        }
+    }
 }

@@ -90,8 +90,8 @@ struct CrossSection {
 
 }  // namespace
 
-// Fails for one index at all wavelengths (by .1), for the index of the next nanometre, and for inside and outside
-// exchanged.
+// Fails for one index at all wavelengths (by .1), for the index of the next nanometre, for inside and outside
+// exchanged, and for Snell's law with the index ratio turned over.
 TEST_CASE("a prism turns each wavelength by Snell's law at both faces", "[law]") {
     for (std::string const glass : {"SF11", "BK7"}) {
         auto const scene = prism_of(glass);

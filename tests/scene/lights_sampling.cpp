@@ -86,6 +86,7 @@ TEST_CASE("a sphere lamp is sampled uniformly in its cone", "[law]") {
 TEST_CASE("a sphere lamp seen from inside is sampled by area", "[law]") {
     check_light(R"("type": "sphere", "centre": [0.3,0.2,0.1], "radius": 0.9)", {0, 0, 0});
 }
+// Fails for a density without the cosine at the lamp.
 TEST_CASE("a disc lamp is sampled by area", "[law]") {
     check_light(R"("type": "disc", "centre": [0.3,1.1,0.2], "normal": [0.2,-1,0.1], "radius": 0.9)", {0, 0, 0});
 }
@@ -106,15 +107,15 @@ TEST_CASE("a triangle lamp is sampled uniformly in solid angle", "[law]") {
     check_light(R"("type": "mesh", "vertices": [[-1,1,-1],[1.4,1.2,-0.8],[0.3,0.9,1.5]], "triangles": [[0,1,2]])",
                 {0.1f, 0, 0.2f});
 }
-// Fails for the probability of another triangle than the one that was hit.
+// Fails when either sample() or density() leaves out the probability of the triangle.
 TEST_CASE("a mesh lamp is sampled by area and each triangle uniformly in solid angle", "[law]") {
     check_light(
         R"("type": "mesh", "vertices": [[-1,1,-1],[1.4,1.2,-0.8],[0.3,0.9,1.5],[0.2,2.4,0.1]], "triangles": [[0,1,2],[0,1,3],[1,2,3],[2,0,3]])",
         {0.1f, 0, 0.2f});
 }
 
-// Closed forms, near (by solid angle) and so far that lamps are sampled by area. Fails for a solid angle without the
-// cosine, or a density that is not divided by the area.
+// Closed forms, near (by solid angle) and so far that lamps are sampled by area. Fails for a density by area without
+// the cosine.
 TEST_CASE("the mean of one over the density is the lamp's solid angle", "[law]") {
     for (double d : {0.7, 3.0, 60.0, 900.0}) {
         INFO("at distance " << d);
@@ -137,13 +138,16 @@ TEST_CASE("the mean of one over the density is the lamp's solid angle", "[law]")
     }
 }
 
+// Fails for directions over the whole sphere's surface with the cone's density.
 TEST_CASE("a far sphere lamp gives the irradiance pi L (r / d)^2", "[law]") {
     auto const scene = test::scene_from(
         R"({ "camera": { "eye": [0,5,0], "target": [0,0,0], "up": [0,0,1], "field_deg": 0.1 }, "film": { "size": [2,2] },
         "shapes": [ { "type": "quad", "corners": [[-1,0,-1],[-1,0,1],[1,0,1],[1,0,-1]], "material": { "type": "diffuse", "reflectance": 1 } },
                     { "type": "sphere", "centre": [0,200,0], "radius": 1, "material": { "type": "black" }, "emission": { "radiance": 10000 } } ] })");
     Film const film = test::rendered(*scene, "path", {.spp = 4096, .seed = 6});
-    CHECK(film.mean(0, 0).Y == Approx(10000.0 / (200.0 * 200)).epsilon(2e-3));
+    double const error = std::sqrt(film.variance(0, 0).Y), small = square(1 / 200.0);  // cosines differ from 1 by less
+    CHECK(std::abs(film.mean(0, 0).Y - 10000.0 / (200.0 * 200)) < 3.3 * error + small);  // two-sided level 1e-3
+    CHECK(error < 1e-3);
 }
 
 namespace {
@@ -182,7 +186,8 @@ TEST_CASE("a constant environment is sampled uniformly over the sphere", "[law]"
 
 // Rows and columns lie on the histogram's meridians, whose axis is z, only by chance; 8 x 4 texels, some of them black.
 // Independent of the code: the density is piecewise constant in the picture, Y sin(row) / sum over the 2 pi^2
-// sin(polar) sr of the unit square. Fails without sin(polar) in the density, and for a rotation the other way.
+// sin(polar) sr of the unit square. Fails without sin(polar) in the density or in the
+// weights of the rows, and for a rotation the other way.
 TEST_CASE("a picture environment is sampled by luminance", "[law]") {
     constexpr int width = 8, height = 4;
     EnvironmentPicture picture{width, height, {}, {flat_emission(), flat_emission(), flat_emission()}, 0.7f};
@@ -219,7 +224,8 @@ TEST_CASE("a picture environment is sampled by luminance", "[law]") {
             }
 }
 
-// Intensity 3, inverse square, full within 10 degrees, then 3 t^2 - 2 t^3 in the cosine down to 40 degrees.
+// Intensity 3, inverse square, full within 10 degrees, then 3 t^2 - 2 t^3 in the cosine down to 40 degrees. Fails for a
+// linear falloff.
 TEST_CASE("a spot light falls off by its cubic and the inverse square of the distance", "[unit]") {
     float const cos_full = static_cast<float>(std::cos(radians(10))),
                 cos_end = static_cast<float>(std::cos(radians(40)));

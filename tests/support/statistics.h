@@ -33,6 +33,22 @@ inline double chi_squared_tail(double statistic, int degrees) {
     return front * h;
 }
 
+// A mean and its standard error from means of independent repetitions.
+struct Replicated {
+    double mean, error;
+};
+template <class Repetition>
+Replicated replicated(int count, Repetition&& repetition) {
+    double sum = 0, sum_of_squares = 0;
+    for (int i = 0; i < count; ++i) {
+        double const x = repetition(i);
+        sum += x;
+        sum_of_squares += x * x;
+    }
+    double const mean = sum / count, n = count;
+    return {mean, std::sqrt(std::max(0.0, sum_of_squares / n - mean * mean) / (n - 1))};
+}
+
 // Counts against expectations; what is expected fewer than 5 times is pooled.
 class ChiSquared {
   public:
