@@ -26,6 +26,7 @@ std::string refusal(fs::path const& target) {
 
 }  // namespace
 
+// Fails without the rename, and when the target itself is written.
 TEST_CASE("a committed file is there whole, and nothing else", "[unit]") {
     test::TemporaryFolder const folder;
     fs::path const target = folder.write("a.txt", "old");
@@ -43,6 +44,7 @@ TEST_CASE("a committed file is there whole, and nothing else", "[unit]") {
     CHECK(test::content(folder.path() / "b.txt").size() == 3);
 }
 
+// Fails when the target itself is written.
 TEST_CASE("without commit the target is untouched and no temporary file stays", "[unit]") {
     test::TemporaryFolder const folder;
     fs::path const target = folder.write("a.txt", "old");
@@ -65,6 +67,7 @@ TEST_CASE("a temporary file that vanished is an error and leaves the target alon
     CHECK(test::content(target) == "old");
 }
 
+// Fails without the rename.
 TEST_CASE("two writers of one target do not mix", "[unit]") {
     test::TemporaryFolder const folder;
     fs::path const target = folder.path() / "a.txt";

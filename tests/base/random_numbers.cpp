@@ -33,6 +33,7 @@ TEST_CASE("random floats are below one and reach every 24-bit value's neighbourh
     CHECK(to_unit_float(0) == 0);
 }
 
+// Fails for a key without the pixel.
 TEST_CASE("a random number depends on seed, pixel, sample and dimension alone", "[law]") {
     auto const number = [](std::uint64_t seed, std::uint32_t pixel, std::uint32_t sample, int dimension) {
         Sampler s(SamplerKind::sobol, seed, pixel, sample);
@@ -46,6 +47,7 @@ TEST_CASE("a random number depends on seed, pixel, sample and dimension alone", 
     CHECK(number(1, 2, 3, 4) != number(1, 2, 3, 5));
 }
 
+// Fails for a second number of each pair that equals the first.
 TEST_CASE("tabulated distributions sample what they state", "[law]") {
     std::vector<double> const weights{0, 3, 1, 0, 6};
     DiscreteDistribution const d(weights);

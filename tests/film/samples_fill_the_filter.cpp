@@ -36,6 +36,7 @@ double p_value(double limit, std::function<float(Sample2)> const& draw,
 
 }  // namespace
 
+// Fails for a box from 0.
 TEST_CASE("box samples are even over the box", "[law]") {
     for (float radius : {0.5f, 2.0f}) {
         double const r = static_cast<double>(radius);
@@ -45,6 +46,7 @@ TEST_CASE("box samples are even over the box", "[law]") {
     }
 }
 
+// Fails for a box.
 TEST_CASE("triangle samples have the density of the tent", "[law]") {
     for (float radius : {1.0f, 1.5f}) {
         double const r = static_cast<double>(radius);
@@ -55,7 +57,7 @@ TEST_CASE("triangle samples have the density of the tent", "[law]") {
 }
 
 // The squared distance q, in standard deviations: a share (1 - exp(-q / 2)) / (1 - exp(-9 / 2)) lies within it, and the
-// azimuth is even.
+// azimuth is even. Fails for a standard deviation of half the radius, and for a Gaussian that is not cut.
 TEST_CASE("Gaussian samples have the density of a Gaussian cut at three standard deviations", "[law]") {
     float const radius = 1.5f;
     double const r = static_cast<double>(radius), whole = 1 - std::exp(-4.5);

@@ -11,7 +11,8 @@ double F(double angle_deg, double n, double k) { return fresnel(std::cos(angle_d
 }  // namespace
 
 // Values: 50-digit evaluation of the textbook formulas with complex cosines. Fails for the approximation
-// ((n^2 + k^2) c^2 - 2 n c + 1) / (...), which is off by 3e-3 at 60 degrees.
+// ((n^2 + k^2) c^2 - 2 n c + 1) / (...), which is off by 3e-3 at 60 degrees, for Schlick's, for kappa ignored and for
+// p and s exchanged.
 TEST_CASE("conductors reflect what the exact complex formula says", "[law]") {
     CHECK(F(0, .2, 3.0) == Approx(.92337165).margin(5e-9));
     CHECK(F(60, .2, 3.0) == Approx(.91841108).margin(5e-9));
@@ -24,6 +25,7 @@ TEST_CASE("conductors reflect what the exact complex formula says", "[law]") {
     CHECK(r.s == Approx(.95467906).margin(5e-9));
 }
 
+// Fails for p and s exchanged, and for Schlick's approximation.
 TEST_CASE("dielectrics are conductors with k = 0", "[law]") {
     CHECK(F(30, 1.5, 0) == Approx(.041522626).margin(5e-10));
     CHECK(F(60, 1.5, 0) == Approx(.089186713).margin(5e-10));
@@ -38,6 +40,7 @@ TEST_CASE("at grazing incidence everything is a mirror", "[law]") {
         for (double k : {0.0, .1, 3.0, 100.0}) CHECK(F(90, n, k) == Approx(1).margin(1e-12));
 }
 
+// Fails when the far medium's normal component is real there too.
 TEST_CASE("beyond the critical angle reflection is total", "[law]") {
     for (double angle = 41.9; angle < 90; angle += 1.7) {
         CHECK(F(angle, 1 / 1.5, 0) == Approx(1).margin(1e-14));
@@ -46,6 +49,7 @@ TEST_CASE("beyond the critical angle reflection is total", "[law]") {
     }
 }
 
+// Fails for Schlick's approximation.
 TEST_CASE("both sides of an interface reflect alike at conjugate angles", "[law]") {
     for (double angle : {10., 30., 50., 70., 85.}) {
         double const inside = std::asin(std::sin(angle * M_PI / 180) / 1.7) * 180 / M_PI;
