@@ -38,6 +38,7 @@ Sample3 numbers(Sampler& s) { return {s.next(), s.next2()}; }
 
 }  // namespace
 
+// Fails for a uniform instead of a cosine hemisphere in Lambert.
 TEST_CASE("sampled directions follow the stated density", "[law]") {
     constexpr int samples = 1000000;
     constexpr double level = 1e-3 / 20;  // Sidak over the cases
