@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Exact Fresnel equations for a plane boundary between a transparent medium and one of complex index, per lane.
+// Exact Fresnel equations for a plane boundary: reflectances between a transparent medium and one of complex index, per
+// lane, and complex amplitudes between any two media.
 //   eta + i kappa   index of the far medium over that of the near one
 //   c, s            cosine and sine of the angle of incidence
 //   a + i b         = sqrt((eta + i kappa)^2 - s^2), the far medium's normal component of the wave vector
 //   Rs = |(c - (a + ib)) / (c + (a + ib))|^2
 //   Rp = Rs |((ac - s^2) + ibc) / ((ac + s^2) + ibc)|^2
 // Written as sums of squares: no cancellation at Brewster's angle, at grazing or for kappa = 0, where it is the
-// dielectric formula and, beyond the critical angle (a = 0), exactly 1. [Born 1999, sec. 14.2]
+// dielectric formula and, beyond the critical angle (a = 0), exactly 1. [Born 1999, secs. 1.5 and 14.2]
 #pragma once
 
+#include <complex>
 #include <limits>
 
 #include "spectral/sampled.h"
@@ -48,6 +50,37 @@ FresnelReflectance<Real> fresnel(Real cosine, Real eta, Real kappa) {
     // At c = 0 and s^2 = 1 the second factor is 1 by itself; at c = 1, s = 0 it is 1 unless a = b = 0.
     Real const p_over_s = (sq(ac - sine2) + bc2) / std::max(sq(ac + sine2) + bc2, std::numeric_limits<Real>::min());
     return {s, s * p_over_s};
+}
+
+// A medium as a plane wave meets it: N = n + ik, and q = sqrt(N^2 - S^2), Re q, Im q >= 0, the normal component of its
+// wave vector over that of vacuum. S = n sin(angle of incidence) is the same in every medium.
+template <class Real>
+struct WaveMedium {
+    std::complex<Real> N, q;
+};
+template <class Real>
+WaveMedium<Real> wave_medium(std::complex<Real> N, Real S2) {
+    Real a, b;
+    refracted_normal_component(N.real(), N.imag(), S2, a, b);
+    return {N, {a, b}};
+}
+
+// Electric amplitudes behind (t) and before (r) a boundary, over that of the arriving wave; their arguments are the
+// jumps of phase, fields varying as exp(-i omega t). At normal incidence r_p = -r_s.
+template <class Real>
+struct FresnelAmplitudes {
+    std::complex<Real> r_s, r_p, t_s, t_p;
+};
+// r_s = (q1 - q2)/(q1 + q2), r_p = (N2^2 q1 - N1^2 q2)/(N2^2 q1 + N1^2 q2), t_s = 1 + r_s, t_p = (1 + r_p) N1/N2; N >
+// 0. Both q are 0 only along a boundary between equal media, which is none.
+template <class Real>
+FresnelAmplitudes<Real> fresnel_amplitudes(WaveMedium<Real> const& near, WaveMedium<Real> const& far) {
+    auto const ratio = [](std::complex<Real> x, std::complex<Real> y) {
+        return x + y == std::complex<Real>(0) ? std::complex<Real>(0) : (x - y) / (x + y);
+    };
+    std::complex<Real> const s = ratio(near.q, far.q);
+    std::complex<Real> const p = ratio(far.N * far.N * near.q, near.N * near.N * far.q);
+    return {s, p, Real(1) + s, (Real(1) + p) * (near.N / far.N)};
 }
 
 // All lanes at once. One loop, so that it is compiled to SIMD instructions. [dimensionless]

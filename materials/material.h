@@ -15,7 +15,8 @@ namespace iride {
 
 class Bsdf {
   public:
-    using Model = std::variant<Black, Lambert, SmoothConductor, RoughConductor, SmoothDielectric>;
+    using Model = std::variant<Black, Lambert, SmoothConductor, RoughConductor, SmoothDielectric, SmoothCoatedConductor,
+                               RoughCoatedConductor>;
 
     template <BsdfModel T>
     Bsdf(T const& model) : model_(model) {}
@@ -88,6 +89,22 @@ class ConductorMaterial : public Material {
 
   private:
     Index n_, k_;
+    float roughness_;
+};
+
+class CoatedConductorMaterial : public Material {
+  public:
+    // roughness: GGX alpha, 0 for a mirror; the coating follows the facets.
+    CoatedConductorMaterial(CoatingTable table, float roughness)
+        : Material({.has_density = roughness > 0}), table_(std::move(table)), roughness_(roughness) {}
+    Bsdf at(SurfacePoint const&, Wavelengths const& w) const override {
+        CoatedFresnel const fresnel{&table_, table_.at(w)};
+        if (roughness_ == 0) return SmoothCoatedConductor{fresnel};
+        return RoughCoatedConductor{fresnel, {roughness_}};
+    }
+
+  private:
+    CoatingTable table_;
     float roughness_;
 };
 

@@ -16,6 +16,16 @@ struct NamedModel {
     int quadrature = 32;  // points per side of a histogram cell: the narrow lobe is a tenth of a cell wide
 };
 
+// 60 nm of rutile-like oxide on a titanium-like metal, at wavelengths spread over the visible.
+CoatedFresnel oxide_on_metal() {
+    constexpr WavelengthRange range{400, 700};
+    static WavelengthGrid const grid = WavelengthGrid::covering(range);
+    static std::vector<CoatingLayer> const oxide{
+        {{SpectralFunction::constant(2.4), SpectralFunction::constant(0)}, 60}};
+    static CoatingTable const table(oxide, {SpectralFunction::constant(2.7), SpectralFunction::constant(3.8)}, grid);
+    return {&table, table.at(WavelengthSampler(range, SpectralFunction::constant(1), grid).sample(.1f))};
+}
+
 std::vector<NamedModel> models() {
     auto const lanes = [](float first, float step) {
         Lanes l;
@@ -26,6 +36,7 @@ std::vector<NamedModel> models() {
     for (float alpha : {.05f, .2f, .5f, 1.0f})
         all.push_back(
             {"rough conductor", RoughConductor{lanes(.15f, .2f), lanes(3, .1f), {alpha}}, alpha < .1f ? 200 : 32});
+    all.push_back({"rough coated conductor", RoughCoatedConductor{oxide_on_metal(), {.3f}}});
     return all;
 }
 

@@ -150,3 +150,32 @@ TEST_CASE("every shipped scene loads without a complaint", "[input]") {
     }
     CHECK(shipped_scenes().size() >= 12);
 }
+TEST_CASE("coatings that are none are refused", "[input]") {
+    auto const coated = [](std::string const& coating, std::string const& metal = R"("Ti")") {
+        return refusal(with(R"("materials": { "a": { "type": "conductor", "ior": )" + metal + R"(, "coating": )" +
+                            coating + "} }"));
+    };
+    auto const layer = [](std::string const& ior, std::string const& thickness) {
+        return R"({ "ior": )" + ior + R"(, "thickness_nm": )" + thickness + "}";
+    };
+    CHECK(coated("[" + layer(R"("TiO2:Siefke")", "50") + "]") == "(accepted)");
+    CHECK_THAT(coated("[" + layer("2.4", "-1") + "]"),
+               Contains("materials.a.coating[0].thickness_nm: found -1, allowed: at least 0"));
+    CHECK_THAT(coated("[" + layer("2.4", "1e999") + "]"), Contains("1e999") || Contains("thickness_nm: found inf"));
+    CHECK_THAT(coated("[" + layer("2.4", R"("thick")") + "]"), Contains("coating[0].thickness_nm: found"));
+    CHECK_THAT(coated(R"([ { "ior": 2.4 } ])"), Contains("coating[0]: the key 'thickness_nm' is missing"));
+    CHECK_THAT(coated(R"([ { "ior": 2.4, "thicknes_nm": 5 } ])"), Contains("did you mean 'thickness_nm'?"));
+    CHECK_THAT(coated("[" + layer("2.4", "5") + ", " + layer(R"({ "n": 2, "k": -0.1 })", "5") + "]"),
+               Contains("materials.a.coating[1].ior.k: values -0.1 .. -0.1 over the render range, allowed: in 0"));
+    CHECK_THAT(coated("[" + layer(R"("TiO2:Devore-o")", "50") + "]"),
+               Contains("coating[0].ior: 'TiO2:Devore-o' is given on 430..1530 nm, the render range is 360..830 nm"));
+    CHECK_THAT(coated("[" + layer("0", "5") + "]"), Contains("coating[0].ior: n reaches 0"));
+    CHECK_THAT(coated("[" + layer("2", "5") + "]", "0"), Contains("materials.a.ior: n reaches 0"));
+    CHECK_THAT(coated("[]"),
+               Contains("materials.a.coating: found an array of 0, but an array of 1 .. 32 layers is wanted"));
+    CHECK_THAT(coated("7"), Contains("materials.a.coating: found") && Contains("1 .. 32 layers"));
+    std::string many = layer("2", "5");
+    for (int i = 1; i < 33; ++i) many += ", " + layer("2", "5");
+    CHECK_THAT(coated("[" + many + "]"), Contains("found an array of 33, but an array of 1 .. 32 layers is wanted"));
+    CHECK_THAT(coated("[" + layer("1.5", "1e6") + "]"), Contains("materials.a.coating: the layers are too thick"));
+}

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// Amplitudes at a boundary: their squares, their phases, and what is the same from both sides.
+#include <catch2/catch.hpp>
+
+#include "base/constants.h"
+#include "materials/fresnel.h"
+
+using namespace iride;
+
+namespace {
+
+using Complex = std::complex<double>;
+
+FresnelAmplitudes<double> amplitudes(double degrees, Complex near, Complex far) {
+    double const S = near.real() * std::sin(radians(degrees));
+    return fresnel_amplitudes(wave_medium(near, S * S), wave_medium(far, S * S));
+}
+
+}  // namespace
+
+// Seen to fail with N instead of N^2 in r_p.
+TEST_CASE("the squares of the amplitudes are the reflectances", "[unit]") {
+    for (Complex const far : {Complex(1.5, 0), {.2, 3}, {.05, .1}, {2.4, .01}, {1.1, 6.7}})
+        for (double near : {1., 1.33})
+            for (double angle : {0., 30., 56.3, 75., 89.9}) {
+                auto const a = amplitudes(angle, near, far);
+                auto const F = fresnel(std::cos(radians(angle)), far.real() / near, far.imag() / near);
+                CHECK(std::norm(a.r_s) == Approx(F.s).epsilon(1e-12));
+                CHECK(std::norm(a.r_p) == Approx(F.p).epsilon(1e-11).margin(1e-16));
+            }
+}
+
+// tan(delta_s / 2) = -sqrt(sin^2 - n^2) / cos and tan(delta_p / 2) = the same / n^2; 45 degrees in
+// glass of 1.5. The sign is that of exp(-i omega t). Seen to fail with the other root of q^2 = N^2 - S^2.
+TEST_CASE("total reflection turns the phases by Born and Wolf's half angles", "[law]") {
+    auto const a = amplitudes(45, 1.5, 1);
+    double const n = 1 / 1.5, half_s = -std::atan(std::sqrt(.5 - n * n) / std::sqrt(.5));
+    double const half_p = -std::atan(std::sqrt(.5 - n * n) / (std::sqrt(.5) * n * n));
+    CHECK(std::abs(a.r_s) == Approx(1).epsilon(1e-15));
+    CHECK(std::arg(a.r_s) == Approx(2 * half_s).epsilon(1e-12));
+    CHECK(std::arg(a.r_p) == Approx(2 * half_p).epsilon(1e-12));
+}
+
+// Fails if t_p lacks the factor N1 / N2.
+TEST_CASE("Stokes' relations hold at every boundary", "[law]") {
+    for (Complex const far : {Complex(1.5, 0), {.2, 3}, {2.4, .01}})
+        for (double angle : {0., 30., 56.3, 75., 89.9}) {
+            double const S = std::sin(radians(angle));
+            auto const one = wave_medium(Complex(1), S * S), two = wave_medium(far, S * S);
+            auto const there = fresnel_amplitudes(one, two), back = fresnel_amplitudes(two, one);
+            CHECK(std::abs(there.r_s + back.r_s) < 1e-15);
+            CHECK(std::abs(there.r_p + back.r_p) < 1e-15);
+            CHECK(std::abs(there.t_s * back.t_s + there.r_s * there.r_s - 1.0) < 1e-14);
+            CHECK(std::abs(there.t_p * back.t_p + there.r_p * there.r_p - 1.0) < 1e-14);
+        }
+}
+
+TEST_CASE("amplitudes in single precision agree with double", "[unit]") {
+    for (double angle : {0., 45., 85.})
+        for (Complex const far : {Complex(1.5, 0), {.2, 3}, {.6, 0}}) {
+            auto const exact = amplitudes(angle, 1, far);
+            auto const S = static_cast<float>(std::sin(radians(angle)));
+            auto const single = fresnel_amplitudes(wave_medium(std::complex<float>(1), S * S),
+                                                   wave_medium(std::complex<float>(far), S * S));
+            CHECK(std::abs(Complex(single.r_s) - exact.r_s) < 2e-6);
+            CHECK(std::abs(Complex(single.r_p) - exact.r_p) < 2e-6);
+        }
+}
