@@ -98,7 +98,7 @@ class CoatedConductorMaterial : public Material {
     CoatedConductorMaterial(CoatingTable table, float roughness)
         : Material({.has_density = roughness > 0}), table_(std::move(table)), roughness_(roughness) {}
     Bsdf at(SurfacePoint const&, Wavelengths const& w) const override {
-        CoatedFresnel const fresnel{&table_, table_.at(w)};
+        CoatedFresnel const fresnel{&table_, table_.row_of(w)};
         if (roughness_ == 0) return SmoothCoatedConductor{fresnel};
         return RoughCoatedConductor{fresnel, {roughness_}};
     }

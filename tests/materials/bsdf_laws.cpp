@@ -23,7 +23,7 @@ CoatedFresnel oxide_on_metal() {
     static std::vector<CoatingLayer> const oxide{
         {{SpectralFunction::constant(2.4), SpectralFunction::constant(0)}, 60}};
     static CoatingTable const table(oxide, {SpectralFunction::constant(2.7), SpectralFunction::constant(3.8)}, grid);
-    return {&table, table.at(WavelengthSampler(range, SpectralFunction::constant(1), grid).sample(.1f))};
+    return {&table, table.row_of(WavelengthSampler(range, SpectralFunction::constant(1), grid).sample(.1f))};
 }
 
 std::vector<NamedModel> models() {

@@ -34,7 +34,7 @@ TEST_CASE("the table of a coating is right to a thousandth", "[law]") {
         for (int i = 0; i < 200; ++i) {
             Wavelengths const w = sampler.sample((static_cast<float>(i) + .5f) / 200);
             float const cosine = static_cast<float>((i * 61) % 200) / 199;
-            Lanes const R = CoatedFresnel{&table, table.at(w)}(cosine);
+            Lanes const R = CoatedFresnel{&table, table.row_of(w)}(cosine);
             for (int lane = 0; lane < lane_count; ++lane)
                 largest =
                     std::max(largest, std::abs(static_cast<double>(R[lane]) -
