@@ -90,4 +90,16 @@ inline Lanes fresnel_unpolarised(float cosine, Lanes eta, Lanes kappa) {
     return result;
 }
 
+// Reflectance of unpolarised light that comes from everywhere alike: 2 int_0^1 R(mu) mu dmu, by the midpoint rule, to
+// 1e-4 of the value. [dimensionless]
+inline double mean_fresnel(double eta, double kappa) {
+    constexpr int steps = 256;
+    double sum = 0;
+    for (int i = 0; i < steps; ++i) {
+        double const cosine = (i + 0.5) / steps;
+        sum += fresnel(cosine, eta, kappa).unpolarised() * cosine;
+    }
+    return 2 * sum / steps;
+}
+
 }  // namespace iride

@@ -9,14 +9,15 @@
 #include "materials/conductor.h"
 #include "materials/dielectric.h"
 #include "materials/lambert.h"
+#include "spectral/complex_index.h"
 #include "spectral/spectrum.h"
 
 namespace iride {
 
 class Bsdf {
   public:
-    using Model = std::variant<Black, Lambert, SmoothConductor, RoughConductor, SmoothDielectric, SmoothCoatedConductor,
-                               RoughCoatedConductor>;
+    using Model = std::variant<Black, Lambert, SmoothConductor, RoughConductor, InterreflectingConductor,
+                               SmoothDielectric, SmoothCoatedConductor, RoughCoatedConductor>;
 
     template <BsdfModel T>
     Bsdf(T const& model) : model_(model) {}
@@ -79,17 +80,19 @@ class BlackMaterial : public Material {
 
 class ConductorMaterial : public Material {
   public:
-    // roughness: GGX alpha, 0 for a mirror.
-    ConductorMaterial(Index n, Index k, float roughness)
-        : Material({.has_density = roughness > 0}), n_(std::move(n)), k_(std::move(k)), roughness_(roughness) {}
+    // roughness: GGX alpha, 0 for a mirror, which has nothing to scatter several times.
+    ConductorMaterial(ComplexIndex const& index, float roughness, bool multiple_scattering, WavelengthGrid const& grid);
     Bsdf at(SurfacePoint const&, Wavelengths const& w) const override {
         if (roughness_ == 0) return SmoothConductor{n_.at(w), k_.at(w)};
-        return RoughConductor{n_.at(w), k_.at(w), {roughness_}};
+        if (!albedo_) return RoughConductor{n_.at(w), k_.at(w), {roughness_}};
+        return InterreflectingConductor{n_.at(w), k_.at(w), multiple_fresnel_.at(w), {roughness_}, albedo_.get()};
     }
 
   private:
     Index n_, k_;
     float roughness_;
+    std::unique_ptr<GgxAlbedo const> albedo_;  // null: single scattering
+    Reflectance multiple_fresnel_;
 };
 
 class CoatedConductorMaterial : public Material {

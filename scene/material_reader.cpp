@@ -64,9 +64,9 @@ Read read_conductor(SceneBuilder& b, Fields& f) {
     double const roughness = f.number("roughness", between(0, 1)).value_or(0);
     if (roughness > 0 && roughness < 1e-3) f.error_at("roughness", "allowed: 0 (a mirror) or 0.001 .. 1 (GGX alpha)");
     if (f.find("coating")) return read_coated_conductor(b, f, ior, static_cast<float>(roughness));
-    if (!ior) return nullptr;
-    return std::make_unique<ConductorMaterial>(Index(ior->n, b.scene.grid), Index(ior->k, b.scene.grid),
-                                               static_cast<float>(roughness));
+    bool const multiple_scattering = f.boolean("multiple_scattering").value_or(true);
+    if (!ior || !(roughness == 0 || roughness >= 1e-3)) return nullptr;
+    return std::make_unique<ConductorMaterial>(*ior, static_cast<float>(roughness), multiple_scattering, b.scene.grid);
 }
 
 Read read_dielectric(SceneBuilder& b, Fields& f) {

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "materials/material.h"
+#include "support/conductors.h"
 #include "support/statistics.h"
 
 using namespace iride;
@@ -37,6 +38,9 @@ std::vector<NamedModel> models() {
         all.push_back(
             {"rough conductor", RoughConductor{lanes(.15f, .2f), lanes(3, .1f), {alpha}}, alpha < .1f ? 200 : 32});
     all.push_back({"rough coated conductor", RoughCoatedConductor{oxide_on_metal(), {.3f}}});
+    for (float alpha : {.05f, .2f, .5f, 1.0f})
+        all.push_back({"interreflecting conductor", test::interreflecting(lanes(.15f, .2f), lanes(3, .1f), alpha),
+                       alpha < .1f ? 200 : 32});
     return all;
 }
 
