@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What light that meets several facets brings back. Each was seen to fail once: F_ms m doubled, and m with loss(wo)
-// alone (furnace); the loss table with a knot too few near grazing (table); F_avg instead of F_avg^2 in F_ms (random
-// walk); m divided by cos wo (reciprocity).
+// What light that meets several facets brings back. Each was seen to fail once: with the lobe m doubled (furnace), with
+// mean_loss for loss(wi) in it (reciprocity), with the table's quadrature uniform in y (table), with F_avg instead of its
+// square in F_ms (random walk).
 #include <catch2/catch.hpp>
 
 #include "base/sampler.h"
