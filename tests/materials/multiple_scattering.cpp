@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What light that meets several facets brings back. Each was seen to fail once: with the lobe m doubled (furnace), with
-// mean_loss for loss(wi) in it (reciprocity), with the table's quadrature uniform in y (table), with F_avg instead of its
-// square in F_ms (random walk).
+// mean_loss for loss(wi) in it (reciprocity), with the table's quadrature uniform in y (table), with F_avg instead of
+// its square in F_ms (random walk).
 #include <catch2/catch.hpp>
 
 #include "base/sampler.h"
