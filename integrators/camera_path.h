@@ -36,8 +36,8 @@ class PathStarter {
     std::uint64_t seed_;
 };
 
-// What wavelengths are drawn from: the observer's importance over the plan's range and, if there are bands, half of it
-// uniform over them.
+// What wavelengths are drawn from: the observer's importance or, where a packet is quieter with it, one fitted to the
+// lamps; if there are bands, half of it uniform over them.
 WavelengthSampler make_wavelength_sampler(Scene const& scene, RenderPlan const& plan);
 
 }  // namespace iride

@@ -79,8 +79,8 @@ CoatingTable::CoatingTable(std::span<CoatingLayer const> layers, ComplexIndex co
         if (fine.place(fine.columns(), 0) > most_points)
             throw InputError(
                 {}, "",
-                "the layers are too thick: their reflectance changes too fast with wavelength or angle to be "
-                "tabulated, faster than that of a coherent film");
+                "the reflectance of these layers changes too fast with wavelength or angle to be tabulated: make them "
+                "thinner");
         fine.fill(layers, substrate);
         bool const wavelength_good = error_in_wavelength(fine) <= coating_tolerance;
         bool const angle_good = error_in_angle(fine) <= coating_tolerance;

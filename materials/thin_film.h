@@ -3,7 +3,7 @@
 // Rouard's recursion from the substrate up, which is the transfer matrix without its growing exponentials:
 //   e = exp(2 pi i q d / lambda),   r <- (r' + r e^2) / (1 + r' r e^2),   t <- t' t e / (1 + r' r e^2)
 // r', t' are the amplitudes of the layer's upper boundary and q its normal component; |e| <= 1, however thick or
-// absorbing the layer. Layers are coherent. [Born 1999, sec. 1.6; Macleod 2017, ch. 2]
+// absorbing the layer. Layers are coherent. [Born 1999, sec. 1.6] [Macleod 2017, ch. 2]
 #pragma once
 
 #include <numbers>

@@ -156,7 +156,7 @@ std::span<LightEntry const> light_entries() { return table; }
 int add_light(SceneBuilder& b, std::unique_ptr<Light> light, std::string const& type, SpectralFunction const& spectrum,
               double luminance) {
     b.lights.push_back(std::move(light));
-    b.scene.light_descriptions.push_back({type, nonzero_range(spectrum, b.scene.wavelengths), luminance});
+    b.scene.light_descriptions.push_back({type, spectrum, nonzero_range(spectrum, b.scene.wavelengths), luminance});
     return static_cast<int>(b.lights.size()) - 1;
 }
 

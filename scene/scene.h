@@ -47,6 +47,7 @@ struct NamedMaterial {
 // What the plan wants to know of a light's spectrum.
 struct LightDescription {
     std::string type;
+    SpectralFunction spectrum;
     WavelengthRange nonzero;  // outside it the light is dark
     double luminance;
 };

@@ -177,5 +177,6 @@ TEST_CASE("coatings that are none are refused", "[input]") {
     std::string many = layer("2", "5");
     for (int i = 1; i < 33; ++i) many += ", " + layer("2", "5");
     CHECK_THAT(coated("[" + many + "]"), Contains("found an array of 33, but an array of 1 .. 32 layers is wanted"));
-    CHECK_THAT(coated("[" + layer("1.5", "1e6") + "]"), Contains("materials.a.coating: the layers are too thick"));
+    CHECK_THAT(coated("[" + layer("1.5", "1e6") + "]"),
+               Contains("materials.a.coating: the reflectance of these layers changes too fast"));
 }
