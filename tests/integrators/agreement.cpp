@@ -96,6 +96,8 @@ TEST_CASE("path and its reference agree: dispersive glass under a rectangle and 
             view, R"("lights": [{ "type": "environment", "radiance": 0.3 }], "shapes": [)" + floor_quad + "," + lamp +
                       "," + sphere(R"({ "type": "dielectric", "ior": { "pairs": [[300, 2.0], [900, 1.4]] } })") + "]"));
 }
+// Fails when a lamp's density over its area leaves out the cosine on its way to one over solid angle, when the light
+// sample's divisor leaves out p_bsdf, and when it leaves out the probability of the choice among lights.
 TEST_CASE("path and its reference agree: mirror, disc and cylinder lamps", "[law]") {
     check_agreement(
         "disc, cylinder",
@@ -115,6 +117,7 @@ TEST_CASE("path and its reference agree: a mesh and a crooked quad as lamps", "[
                 R"(, { "type": "mesh", "vertices": [[-1,2,-1],[1,2.2,-1],[1,1.8,1],[-1.2,2.4,1]], "triangles": [[0,1,2],[0,2,3]], "material": { "type": "black" }, "emission": { "radiance": 2, "two_sided": true } })"
                 R"(, { "type": "quad", "corners": [[1.6,0,-1],[1.6,0,1.5],[1.6,1.4,0.8],[1.6,0.9,-0.7]], "material": { "type": "black" }, "emission": { "radiance": 1, "two_sided": true } }])"));
 }
+// Fails when the probability of the choice among lights is left out for lights without extent.
 TEST_CASE("path and its reference agree: an instanced, squashed cone under a spot and a point", "[law]") {
     check_agreement("dirac lights", scene_text(view, R"("shapes": [)" + floor_quad + R"(],
         "objects": { "hat": [ { "type": "cone", "from": [0,0,0], "to": [0,1,0], "radius": 0.6, "top_radius": 0.1, "material": { "type": "diffuse", "reflectance": 0.7 } } ] },
