@@ -95,18 +95,13 @@ class LightSet {
     Light const& light(int index) const { return *lights_[static_cast<std::size_t>(index)]; }
     std::vector<int> const& environments() const { return environments_; }
 
-    struct Choice {
-        int index;
-        float probability;
-        float rest;
-    };
+    using Choice = DiscreteDistribution::Choice;
     // Whether any light has power: only then may one be chosen.
     bool has_power() const { return by_power_.size() > 0; }
     Choice choose(float u) const {
         check(has_power(), "a light that is chosen has power");
         if (by_power_.size() == 1) return {0, 1, u};
-        auto const choice = by_power_.sample(u);
-        return {choice.index, choice.probability, choice.rest};
+        return by_power_.sample(u);
     }
     float probability(int index) const { return has_power() ? by_power_.probability(index) : 0; }
 

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // iride colour check as a script meets it: exit codes, JSON on stdout alone, messages on stderr alone.
-#include <sys/wait.h>
-
-#include <array>
 #include <catch2/catch.hpp>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <regex>
 
 #include "support/files.h"
+#include "support/program.h"
 #include "support/scenes.h"
 
 using namespace iride;
@@ -24,12 +21,8 @@ struct Result {
 Result check(test::TemporaryFolder const& folder, std::string const& arguments, std::string const& before = {}) {
     std::string const error = (folder.path() / "stderr").string();
     std::string const command = before + " " + IRIDE_PROGRAM + " colour check " + arguments + " 2> " + error;
-    std::FILE* const pipe = ::popen(command.c_str(), "r");
-    std::string out;
-    std::array<char, 4096> buffer;
-    while (std::size_t const n = std::fread(buffer.data(), 1, buffer.size(), pipe)) out.append(buffer.data(), n);
-    int const status = ::pclose(pipe);
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), out, test::content(error)};
+    test::RunResult const r = test::run_shell(command);
+    return {r.code, r.text, test::content(error)};
 }
 
 std::string const shipped = std::string(IRIDE_SOURCE_DIR) + "/data/ocio/config.ocio";
