@@ -2,7 +2,7 @@
 // What single steps of a path cost: see bench/README.md.
 #include <benchmark/benchmark.h>
 
-#include "materials/material.h"
+#include "materials/conductor_material.h"
 
 namespace {
 

@@ -3,7 +3,7 @@
 // reciprocity, energy. The comment above a test names the wrong models with which it was seen to fail.
 #include <catch2/catch.hpp>
 
-#include "materials/material.h"
+#include "materials/closure.h"
 #include "support/conductors.h"
 #include "support/statistics.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a conductor works out before it is hit.
-#include "materials/material.h"
+#include "materials/conductor_material.h"
 
 namespace iride {
 
