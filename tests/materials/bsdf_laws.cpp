@@ -1,46 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// The laws every model with a density obeys, over one table of models: sampling matches density, weight is f cos / p,
-// reciprocity, energy. The comment above a test names the wrong models with which it was seen to fail.
+// The laws every model with a density obeys, over one table of models (support/bsdf_models.h): sampling matches
+// density, weight is f cos / p, reciprocity, energy. The comment above a test names the wrong models with which it was
+// seen to fail.
 #include <catch2/catch.hpp>
 
-#include "materials/closure.h"
-#include "support/conductors.h"
+#include "support/bsdf_models.h"
 #include "support/statistics.h"
 
 using namespace iride;
 
 namespace {
 
-struct NamedModel {
-    char const* name;
-    Bsdf bsdf;
-    int quadrature = 32;  // points per side of a histogram cell: the narrow lobe is a tenth of a cell wide
-};
-
-// 60 nm of rutile-like oxide on a titanium-like metal, at wavelengths spread over the visible.
-CoatedFresnel oxide_on_metal() {
-    constexpr WavelengthRange range{400, 700};
-    static WavelengthGrid const grid = WavelengthGrid::covering(range);
-    static std::vector<CoatingLayer> const oxide{
-        {{SpectralFunction::constant(2.4), SpectralFunction::constant(0)}, 60}};
-    static CoatingTable const table(oxide, {SpectralFunction::constant(2.7), SpectralFunction::constant(3.8)}, grid);
-    return {&table, table.row_of(WavelengthSampler(range, SpectralFunction::constant(1), grid).sample(.1f))};
-}
-
-std::vector<NamedModel> models() {
-    auto const lanes = [](float first, float step) {
-        Lanes l;
-        for (int i = 0; i < lane_count; ++i) l.set(i, first + step * static_cast<float>(i));
-        return l;
-    };
-    std::vector<NamedModel> all{{"lambert", Lambert{lanes(.3f, .1f)}}};
-    for (float alpha : {.05f, .2f, .5f, 1.0f})
-        all.push_back(
-            {"rough conductor", RoughConductor{lanes(.15f, .2f), lanes(3, .1f), {alpha}}, alpha < .1f ? 200 : 32});
-    all.push_back({"rough coated conductor", RoughCoatedConductor{oxide_on_metal(), {.3f}}});
-    for (float alpha : {.05f, .2f, .5f, 1.0f})
-        all.push_back({"interreflecting conductor", test::interreflecting(lanes(.15f, .2f), lanes(3, .1f), alpha),
-                       alpha < .1f ? 200 : 32});
+std::vector<test::NamedModel> const& models() {
+    static std::vector<test::NamedModel> const all = [] {
+        std::vector<test::NamedModel> collected;
+        for (auto const family : {test::diffuse_models, test::metal_models})
+            std::ranges::move(family(), std::back_inserter(collected));
+        return collected;
+    }();
     return all;
 }
 
@@ -57,7 +34,7 @@ Sample3 numbers(Sampler& s) { return {s.next(), s.next2()}; }
 TEST_CASE("sampled directions follow the stated density", "[law]") {
     constexpr int samples = 1000000;
     constexpr double level = 1e-3 / 20;  // Sidak over the cases
-    for (NamedModel const& m : models())
+    for (test::NamedModel const& m : models())
         for (double angle : {0., 35., 70., 86.}) {
             Direction const wo = at_angle(angle);
             test::DirectionHistogram histogram;
@@ -80,7 +57,7 @@ TEST_CASE("sampled directions follow the stated density", "[law]") {
 // Fails for RoughConductor without the factor 1/4 in sample's density, or in both densities, and for Lambert's f
 // without 1 / pi.
 TEST_CASE("a sample's weight is f cos over its density", "[law]") {
-    for (NamedModel const& m : models())
+    for (test::NamedModel const& m : models())
         for (double angle : {0., 35., 70., 88.}) {
             Direction const wo = at_angle(angle);
             Sampler sampler(SamplerKind::independent, 3, 2, static_cast<std::uint32_t>(angle));
@@ -99,7 +76,7 @@ TEST_CASE("a sample's weight is f cos over its density", "[law]") {
 
 // Fails for G1(wo) instead of G2, and for a reflectance by the cosine of wi against the surface, not the half vector.
 TEST_CASE("light and viewer may change places", "[law]") {
-    for (NamedModel const& m : models())
+    for (test::NamedModel const& m : models())
         for (double a : {5., 40., 80.})
             for (double b : {10., 55., 85.}) {
                 Direction const w1 = at_angle(a), w2 = at_angle(b, 1.9);
@@ -111,7 +88,7 @@ TEST_CASE("light and viewer may change places", "[law]") {
 
 // Fails for F doubled.
 TEST_CASE("no surface gives back more than it gets", "[law]") {
-    for (NamedModel const& m : models())
+    for (test::NamedModel const& m : models())
         for (double angle : {0., 30., 60., 85., 89.9}) {
             Direction const wo = at_angle(angle);
             Sampler sampler(SamplerKind::sobol, 5, 3, 0);
