@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lights of a scene file that are no shapes.
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
+#include <cstring>
 
+#include "base/picture.h"
 #include "colour/rec709_basis.h"
 #include "colour/rgb_to_spectrum.h"
 #include "scene/readers.h"
@@ -18,50 +18,15 @@ namespace {
 
 Vector metres(SceneBuilder const& b, VectorDouble const& v) { return (v * b.length_unit_m).cast<float>(); }
 
-// OpenImageIO tries every format it knows on any file, some of them byte by byte: only what begins as OpenEXR or
-// Radiance HDR is handed to it.
-void check_picture_file(std::filesystem::path const& path) {
-    auto const fail = [&](std::string const& message) { return InputError({path.string()}, "", message); };
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(path, error)) throw fail("no such file");
-    constexpr std::uintmax_t largest_file = 1ull << 30;  // bytes
-    std::uintmax_t const size = std::filesystem::file_size(path, error);
-    if (size == 0) throw fail("the file is empty");
-    if (size > largest_file)
-        throw fail(fmt::format("has {} MiB, allowed: at most {} MiB", size >> 20, largest_file >> 20));
-    std::string start(4, '\0');
-    std::ifstream(path, std::ios::binary).read(start.data(), 4);
-    if (start != "\x76\x2f\x31\x01" && !start.starts_with("#?"))
-        throw fail("is neither an OpenEXR nor a Radiance HDR picture");
-}
-
 // A lat-long picture in linear Rec.709. Throws InputError.
-EnvironmentPicture read_picture(std::filesystem::path const& path, double scale, WavelengthGrid const& grid) {
+EnvironmentPicture read_environment_picture(std::filesystem::path const& path, double scale,
+                                            WavelengthGrid const& grid) {
     auto const fail = [&](std::string const& message) { return InputError({path.string()}, "", message); };
-    check_picture_file(path);
-    auto const input = OIIO::ImageInput::open(path.string());
-    if (!input) throw fail("not a readable picture: " + OIIO::geterror());
-    OIIO::ImageSpec const spec = input->spec();
-    if (spec.nchannels < 3) throw fail(fmt::format("found {} channels, but R, G, B are wanted", spec.nchannels));
-    constexpr int largest_side = 32768;
-    if (spec.width < 2 || spec.height < 1 || spec.width > largest_side || spec.height > largest_side)
-        throw fail(
-            fmt::format("found {} x {} pixels, allowed: 2 x 1 .. {} squared", spec.width, spec.height, largest_side));
-    EnvironmentPicture picture{spec.width, spec.height, {}, {}, 0};
-    // Piece by piece: memory grows only as far as the file proves to hold the picture.
-    auto const width = static_cast<std::size_t>(spec.width);
-    bool const tiled = spec.tile_width > 0;
-    int const piece = tiled ? spec.tile_height : 64;  // rows
-    for (int y = 0; y < spec.height; y += piece) {
-        int const end = std::min(spec.height, y + piece);
-        picture.texel.resize(width * static_cast<std::size_t>(end));
-        void* const rows = picture.texel.data() + width * static_cast<std::size_t>(y);
-        bool const read =
-            tiled ? input->read_tiles(0, 0, spec.x, spec.x + spec.width, spec.y + y, spec.y + end, spec.z, spec.z + 1,
-                                      0, 3, OIIO::TypeDesc::FLOAT, rows)
-                  : input->read_scanlines(0, 0, spec.y + y, spec.y + end, spec.z, 0, 3, OIIO::TypeDesc::FLOAT, rows);
-        if (!read) throw fail("truncated or damaged: " + input->geterror());
-    }
+    Picture const file =
+        read_picture(path, {.scene_linear_only = true, .least_channels = 3, .most_channels = 3, .least_width = 2});
+    EnvironmentPicture picture{file.width, file.height, {}, {}, 0};
+    picture.texel.resize(file.value.size() / 3);
+    std::memcpy(picture.texel.data(), file.value.data(), file.value.size() * sizeof(float));
     double brightest = 0;
     for (auto& texel : picture.texel)
         for (float& c : texel) {
@@ -101,7 +66,7 @@ void read_environment(SceneBuilder& b, Fields& f) {
     std::filesystem::path const path = b.context.folder / *name;
     b.context.files_read.push_back(path);
     b.context.guarded(*image, f.path("image"), [&] {
-        EnvironmentPicture picture = read_picture(path, scale, b.scene.grid);
+        EnvironmentPicture picture = read_environment_picture(path, scale, b.scene.grid);
         picture.rotation_rad = static_cast<float>(radians(rotation));
         add_light(b, make_picture_environment(std::move(picture)), "environment picture", unit_d65(), 1);
     });
