@@ -13,6 +13,7 @@
 #include "app/colour.h"
 #include "app/numbers.h"
 #include "base/diagnostics.h"
+#include "colour/chromaticity.h"
 #include "colour/cie_space.h"
 #include "colour/rgb_encoding.h"
 
@@ -89,10 +90,10 @@ class Converter {
         Triple result;
         if (from_.cie) {
             Xyz const c = checked_xyz(*from_.cie, t, white_, place);
-            result = to_.cie ? to_.cie->from_xyz(c, white_) : triple(rgb_(to_vector(c)));
+            result = to_.cie ? in_cie_space(c, t, place) : triple(rgb_(to_vector(c)));
         } else {
             VectorDouble const v = rgb_(VectorDouble(t[0], t[1], t[2]));
-            result = to_.cie ? to_.cie->from_xyz(iride::to_xyz(v), white_) : triple(v);
+            result = to_.cie ? in_cie_space(iride::to_xyz(v), t, place) : triple(v);
         }
         return finite(result, t, place);
     }
@@ -102,6 +103,15 @@ class Converter {
         if (from_.rgb && to_.rgb) return {*from_.rgb, *to_.rgb, method};
         if (from_.rgb) return RgbConversion::to_xyz(*from_.rgb, white_xy_, method);
         return RgbConversion::from_xyz(white_xy_, to_.rgb ? *to_.rgb : rgb_encodings().front(), method);
+    }
+    // The library gives black the white's chromaticity; a person who asks for one must hear that there is none.
+    Triple in_cie_space(Xyz const& c, Triple const& given, std::string const& place) const {
+        if (is_black(c) && (to_.cie->name == "xyY" || to_.cie->name == "uvY"))
+            throw InputError({}, place,
+                             fmt::format("{} {} {} is black: X + Y + Z = 0 has no chromaticity; XYZ, Luv and Lab "
+                                         "have a black",
+                                         given[0], given[1], given[2]));
+        return to_.cie->from_xyz(c, white_);
     }
     static Triple triple(VectorDouble const& v) { return {v[0], v[1], v[2]}; }
     static Triple const& finite(Triple const& result, Triple const& given, std::string const& place) {

@@ -82,17 +82,16 @@ SpectralFunction fitted(Eigen::Vector3d const& rgb, RgbSpace const& space, RgbRo
     VectorDouble const white = to_vector(to_xyz(space.white, 1)), ratio = (matrix * rgb).cwiseQuotient(white);
     bool const bounded = role == RgbRole::reflectance;
     double const brightness = bounded ? 1 : 2 * std::max(rgb.cwiseAbs().maxCoeff(), 1e-300);
-    double difference = 0;
-    Eigen::Vector3d nearest;
+    double scale = brightness;
     for (int doublings = 0; doublings <= (bounded ? 0 : most_doublings); ++doublings) {
-        double const scale = std::ldexp(brightness, doublings);
+        scale = std::ldexp(brightness, doublings);
         SigmoidFit const fit = fitter.fit(ratio / scale);
-        difference = lab_difference(scale / brightness * fit.colour, ratio / brightness);
-        if (difference < reachable_difference)
+        if (lab_difference(scale / brightness * fit.colour, ratio / brightness) < reachable_difference)
             return SpectralFunction(fit.sigmoid, Outside::extrapolate, "rgb").scaled(scale);
-        nearest = scale * matrix.inverse() * fit.colour.cwiseProduct(white);
     }
-    unreachable(rgb, nearest, difference, space, role);
+    VectorDouble const colour = scale * fitter.nearest(ratio / scale).colour;
+    unreachable(rgb, matrix.inverse() * colour.cwiseProduct(white),
+                lab_difference(colour / brightness, ratio / brightness), space, role);
 }
 
 }  // namespace

@@ -131,4 +131,17 @@ SigmoidFit SigmoidFitter::fit(VectorDouble const& wanted, SigmoidShape const& st
     return {{p[0], p[1], p[2]}, here.ratio, residual.norm()};
 }
 
+SigmoidFit SigmoidFitter::nearest(VectorDouble const& wanted) const {
+    SigmoidFit best = fit(wanted);
+    for (double const step : {0.6, 0.8, 1.25})
+        for (int i = 0; i < 27; ++i) {
+            VectorDouble const factors(std::pow(step, i % 3 - 1), std::pow(step, i / 3 % 3 - 1),
+                                       std::pow(step, i / 9 - 1));
+            VectorDouble const around = wanted.cwiseProduct(factors).cwiseMax(1e-3).cwiseMin(1 - 1e-3);
+            SigmoidFit const other = fit(wanted, fit(around).sigmoid);
+            if (other.difference < best.difference) best = other;
+        }
+    return best;
+}
+
 }  // namespace iride

@@ -12,6 +12,7 @@
 #include "colour/rgb_encoding.h"
 #include "colour/rgb_to_spectrum.h"
 #include "support/colorchecker.h"
+#include "support/eye.h"
 #include "support/sharma.h"
 
 namespace iride {
@@ -101,19 +102,15 @@ double correlated_temperature() {
 }
 
 double uplift() {
-    TristimulusWeights const weights(white_light(rgb::rec709.white), cie1931_2deg());
-    Xyz const white = weights.white();
-    MatrixDouble const to_xyz_of_rgb = rgb::rec709.to_xyz_matrix();
-    Xyz const published_white = to_xyz(rgb::rec709.white, 1);
+    test::Eye const eye(white_light(rgb::rec709.white));
     constexpr int side = 32;
     double most = 0;
     for (int i = 0; i < side * side * side; ++i) {
-        VectorDouble const rgb = VectorDouble(i % side, i / side % side, i / side / side).unaryExpr([](double v) {
+        Eigen::Vector3d const rgb = Eigen::Vector3d(i % side, i / side % side, i / side / side).unaryExpr([](double v) {
             return decode(TransferFunction::srgb, v / (side - 1));
         });
         SpectralFunction const s = rgb_to_spectrum(rgb, rgb::rec709, RgbRole::reflectance);
-        Lab const wanted = to_lab(to_xyz(VectorDouble(to_xyz_of_rgb * rgb)), published_white);
-        most = std::max(most, delta_e_1976(to_lab(weights.of(s), white), wanted));
+        most = std::max(most, test::difference_1976(eye.ratio(s), test::wanted_ratio(rgb::rec709, rgb)));
     }
     return most;
 }

@@ -176,6 +176,8 @@ TEST_CASE("bad input of the colour commands ends with a message, exit code 2 and
     check_refused("convert --from sRGB --to linear-sRGB 1e200 1 1", "finite");
     check_refused("convert --from XYZ --to Lab -- -.5 1 1", "not negative");
     check_refused("convert --from xyY --to Lab .3 0 1", "no colour");
+    check_refused("convert --from XYZ --to xyY 0 0 0", "X + Y + Z = 0");
+    check_refused("convert --from sRGB --to uvY 0 0 0", "has no chromaticity");
     check_refused("convert --from XYZ --to Lab 1 1", "three numbers");
     check_refused("convert --to Lab 1 1 1", "--from");
     check_refused("difference --formula cie2001 50 0 0 50 0 0", "did you mean 'cie2000'");
