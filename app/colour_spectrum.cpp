@@ -156,7 +156,8 @@ Command add_colour_spectrum(CLI::App& colour) {
         ->add_option(
             "NAME", o->names,
             "shipped spectra or groups (D65, colorchecker:red, colorchecker), blackbody:KELVIN, daylight:KELVIN, "
-            "files (.csv, .spd, CGATS, refractiveindex.info), FILE:COLUMN")
+            "files (.csv, .spd, CGATS, refractiveindex.info), FILE:COLUMN; of an n + ik (Au) the reflectance at normal "
+            "incidence")
         ->required();
     parser->add_option("--illuminant", o->illuminant, "light on reflectances, and the white: a name or a file")
         ->capture_default_str();

@@ -134,6 +134,13 @@ TEST_CASE("colour spectrum gives CIE's white points with every field", "[app]") 
         CHECK(body.contains(field));
 }
 
+// The published chromaticities of polished metals under D65, of their published n + ik.
+TEST_CASE("a metal by name is its reflectance at normal incidence", "[app]") {
+    json const metals = answer("spectrum Au Cu --json");
+    check_numbers(metals[0]["xy"], {.3818, .3887}, 1.5e-4);
+    check_numbers(metals[1]["xy"], {.3558, .3456}, 1.5e-4);
+}
+
 TEST_CASE("a purple has no dominant wavelength in JSON, and no correlated temperature far from blackbodies", "[app]") {
     json const j = answer("spectrum colorchecker:magenta --json");
     CHECK(j["quantity"] == "reflectance");
@@ -185,7 +192,8 @@ TEST_CASE("bad input of the colour commands ends with a message, exit code 2 and
     check_refused("difference --formula cie2000 50 0 nan 50 0 0", "finite");
     check_refused("difference --formula cie2000 50 0 1e300 50 0 0", "finite");
     check_refused("spectrum D66 --json", "did you mean 'D65'");
-    check_refused("spectrum Au", "index of refraction");
+    check_refused("spectrum " + folder.write("infrared.csv", "wl,n\n1.0,2\n2.0,3\n\nwl,k\n1.0,2\n2.0,3\n").string(),
+                  "not known in the visible");
     check_refused("spectrum D65 --observer cie1932_2deg", "cie1931_2deg");
     check_refused("spectrum D65 --plot /nonexistent/a.png", "does not exist");
     check_refused("spectrum D65 --plot a.pdf", ".png");
