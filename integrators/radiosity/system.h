@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// The radiosity equation of n patches for w wavelengths: every wavelength shares the form factors.
+//   b_i = e_i + rho_i sum_j F_ij b_j        M b = e,   M = I - diag(rho) F
+//   F_ij   share of the power leaving patch i that arrives at patch j: A_i F_ij = A_j F_ji, sum_j F_ij <= 1
+//   b, e   radiosity and emitted exitance [W m^-2 nm^-1]; a diffuse patch of radiosity b has radiance b / pi
+// [Goral 1984] [Cohen 1993]
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+namespace iride::radiosity {
+
+using FormFactors = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+using Spectra = Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;  // [patch][wavelength]
+
+struct System {
+    Eigen::ArrayXd area;       // [patch], m^2
+    FormFactors form_factors;  // [patch][patch]
+    Spectra reflectance;       // 0 <= rho < 1
+    Spectra emission;          // W m^-2 nm^-1
+
+    Eigen::Index patches() const { return area.size(); }
+    Eigen::Index wavelengths() const { return emission.cols(); }
+};
+
+// e - M b: what a radiosity still lacks. [W m^-2 nm^-1]
+Spectra residual(System const& system, Spectra const& b);
+
+// The largest |A_i F_ij - A_j F_ji| over the largest A_i F_ij, and the largest |1 - sum_j F_ij|.
+double reciprocity_defect(System const& system);
+double closure_defect(System const& system);
+
+}  // namespace iride::radiosity
