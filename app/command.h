@@ -21,6 +21,7 @@ struct Command {
 Command add_render(CLI::App& app);
 Command add_scenes(CLI::App& app);
 Command add_plan(CLI::App& app);
+Command add_radiosity(CLI::App& app);
 Command add_compare(CLI::App& app);
 Command add_colour(CLI::App& app);
 

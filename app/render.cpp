@@ -148,7 +148,7 @@ int run_render(Options const& o) {
     if (!out.preview.empty()) display = ColourConfig(o.ocio).to_display("", o.view);
     RenderPlan const plan = make_plan(*scene);
     std::string const name = o.integrator.empty() ? scene->render.integrator : o.integrator;
-    auto const integrator = make_integrator(name, plan);
+    auto const integrator = make_integrator(name, *scene, plan);
     if (!o.quiet)
         for (std::string const& remark : scene->remarks) fmt::print(stderr, "note: {}\n", remark);
 

@@ -72,7 +72,7 @@ std::uint64_t trace_bare(RTCScene scene, std::vector<RecordedRay> const& rays) {
 int run(std::string const& name, int spp, int rounds) {
     auto const scene = load_scene(find_scene(name));
     RenderPlan const plan = make_plan(*scene);
-    auto const integrator = make_integrator("path", plan);
+    auto const integrator = make_integrator("path", *scene, plan);
     std::vector<RecordedRay> const rays = record(*scene, *integrator, plan, spp);
     std::vector<double> ratios;
     for (int round = 0; round < rounds; ++round) {

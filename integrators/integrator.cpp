@@ -6,24 +6,26 @@
 #include <array>
 
 #include "integrators/path.h"
+#include "integrators/radiosity/radiosity.h"
 
 namespace iride {
 
 namespace {
 
-constexpr std::array<IntegratorEntry, 2> table{{
+constexpr std::array<IntegratorEntry, 3> table{{
     {"path", "path tracing: light sampling and scattering, unbiased", make_path},
     {"reference_path", "path tracing by scattering alone: slow, the oracle of the others", make_reference_path},
+    {"radiosity", "diffuse surfaces cut into patches, solved for every wavelength: no noise", radiosity::make_radiosity},
 }};
 
 }  // namespace
 
 std::span<IntegratorEntry const> integrator_entries() { return table; }
 
-std::unique_ptr<Integrator> make_integrator(std::string const& name, RenderPlan const& plan) {
+std::unique_ptr<Integrator> make_integrator(std::string const& name, Scene const& scene, RenderPlan const& plan) {
     std::vector<std::string> names;
     for (IntegratorEntry const& e : table) {
-        if (name == e.name) return e.make(plan);
+        if (name == e.name) return e.make(scene, plan);
         names.emplace_back(e.name);
     }
     throw InputError({}, "integrator", fmt::format("unknown integrator '{}'{}", name, suggestion(name, names)));

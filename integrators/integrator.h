@@ -25,11 +25,11 @@ class Integrator {
 struct IntegratorEntry {
     char const* name;
     char const* summary;
-    std::unique_ptr<Integrator> (*make)(RenderPlan const&);
+    std::unique_ptr<Integrator> (*make)(Scene const&, RenderPlan const&);
 };
 std::span<IntegratorEntry const> integrator_entries();
-// Throws InputError with the nearest name.
-std::unique_ptr<Integrator> make_integrator(std::string const& name, RenderPlan const& plan);
+// What an integrator works out before the first path is done here. Throws InputError with the nearest name.
+std::unique_ptr<Integrator> make_integrator(std::string const& name, Scene const& scene, RenderPlan const& plan);
 
 // A path that scatters this often in a scene without absorption would never end: it is given up and counted.
 inline constexpr int longest_path = 10000;

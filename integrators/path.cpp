@@ -256,7 +256,7 @@ class Path final : public Integrator {
 
 }  // namespace
 
-std::unique_ptr<Integrator> make_path(RenderPlan const& plan) {
+std::unique_ptr<Integrator> make_path(Scene const&, RenderPlan const& plan) {
     if (plan.dispersion) return std::make_unique<Path<true>>(plan);
     return std::make_unique<Path<false>>(plan);
 }

@@ -70,7 +70,7 @@ class ReferencePath final : public Integrator {
 
 }  // namespace
 
-std::unique_ptr<Integrator> make_reference_path(RenderPlan const& plan) {
+std::unique_ptr<Integrator> make_reference_path(Scene const&, RenderPlan const& plan) {
     return std::make_unique<ReferencePath>(plan);
 }
 

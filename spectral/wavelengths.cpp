@@ -34,6 +34,25 @@ WavelengthSampler::WavelengthSampler(WavelengthRange const& range, SpectralFunct
     knot_nm_.back() = static_cast<float>(range.max_nm);
 }
 
+namespace {
+
+void place_on_grid(Wavelengths& w, int first_nm, int cells) {
+    LaneRegister const on_grid = w.nm - static_cast<float>(first_nm);
+    LaneIndex const cell = __builtin_convertvector(on_grid, LaneIndex), last = LaneIndex{} + (cells - 1);
+    w.cell = cell < last ? cell : last;
+    w.fraction = on_grid - __builtin_convertvector(w.cell, LaneRegister);
+}
+
+}  // namespace
+
+Wavelengths wavelengths_at(LaneRegister const& nm, WavelengthGrid const& grid) {
+    Wavelengths w;
+    w.nm = nm;
+    w.density = Sampled<dim::per_nanometre>(1.0f);
+    place_on_grid(w, grid.first_nm, grid.count - 1);
+    return w;
+}
+
 Wavelengths WavelengthSampler::sample(float u) const {
     static_assert(segment_count % lane_count == 0 && (segment_count & (segment_count - 1)) == 0);
     float const scaled = u * segment_count;
@@ -49,10 +68,7 @@ Wavelengths WavelengthSampler::sample(float u) const {
     Wavelengths w;
     w.nm = low + f * width;
     w.density.lane = 1.0f / (static_cast<float>(segment_count) * width);
-    LaneRegister const on_grid = w.nm - static_cast<float>(grid_first_nm_);
-    LaneIndex const cell = __builtin_convertvector(on_grid, LaneIndex), last = LaneIndex{} + (grid_cells_ - 1);
-    w.cell = cell < last ? cell : last;
-    w.fraction = on_grid - __builtin_convertvector(w.cell, LaneRegister);
+    place_on_grid(w, grid_first_nm_, grid_cells_);
     return w;
 }
 

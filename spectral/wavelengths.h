@@ -27,6 +27,9 @@ struct Wavelengths {
     LaneRegister fraction;                // ... and the place in it, 0..1
 };
 
+// A packet at wavelengths of one's own, to look spectra up outside the sampling loop. Its density is 1 per nm.
+Wavelengths wavelengths_at(LaneRegister const& nm, WavelengthGrid const& grid);
+
 // Draws packets from a density p(lambda) on a range. The map u -> lambda is piecewise linear over `segment_count` equal
 // steps of u, so that sampling needs no search and the density is its exact derivative: p = 1 / (segment_count width).
 class WavelengthSampler {

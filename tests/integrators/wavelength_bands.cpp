@@ -114,7 +114,7 @@ TEST_CASE("bands times observer are XYZ to float rounding, with dispersion too",
         Observer eye{"steps", step(x), step(y), step(z), 0};
         eye.ybar_integral = eye.ybar.integral(visible_range);
         Film film(24, 24, eye, scene->grid, bands);
-        render(*scene, plan, *make_integrator("path", plan), {.spp = 16, .seed = 4}, film);
+        render(*scene, plan, *make_integrator("path", *scene, plan), {.spp = 16, .seed = 4}, film);
         for (int py = 0; py < 24; ++py)
             for (int px = 0; px < 24; ++px) {
                 double X = 0, Y = 0, Z = 0, scale = bands.width_nm() / eye.ybar_integral;

@@ -45,7 +45,7 @@ inline std::unique_ptr<Scene> scene_from(std::string const& text) {
 inline Film rendered(Scene const& scene, std::string const& integrator, RenderSettings const& settings) {
     RenderPlan const plan = make_plan(scene);
     Film film = make_film(scene);
-    render(scene, plan, *make_integrator(integrator, plan), settings, film);
+    render(scene, plan, *make_integrator(integrator, scene, plan), settings, film);
     return film;
 }
 

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "integrators/radiosity/patches.h"
+
+#include <fmt/format.h>
+
+#include "base/diagnostics.h"
+#include "integrators/radiosity/polygon_form_factor.h"
+#include "integrators/radiosity/tessellation.h"
+
+namespace iride::radiosity {
+
+namespace {
+
+// Shapes in world coordinates: those of instances as meshes, since their transforms may shear.
+ShapeGeometry placed(ShapeGeometry const& geometry, Transform const& to_world, double size) {
+    Faces const faces = tessellate(geometry, size);
+    auto mesh = std::make_shared<Mesh>();
+    for (VectorDouble const& p : faces.position) mesh->position.push_back((to_world * p).cast<float>());
+    auto const index = [](int i) { return static_cast<std::uint32_t>(i); };
+    for (auto const& f : faces.face) {
+        mesh->triangle.push_back({index(f.vertex[0]), index(f.vertex[1]), index(f.vertex[2])});
+        if (f.corners == 4) mesh->triangle.push_back({index(f.vertex[0]), index(f.vertex[2]), index(f.vertex[3])});
+    }
+    return MeshShape{std::move(mesh), false};
+}
+
+// The faces of a shape as patches of one side; `front`: the first patch of the other side, or -1.
+void add_side(PatchMesh& mesh, Faces const& faces, int shape, bool turned, int front) {
+    int const first = static_cast<int>(mesh.position.size());
+    mesh.position.insert(mesh.position.end(), faces.position.begin(), faces.position.end());
+    for (Faces::Face const& f : faces.face) {
+        Patch p{f.vertex, f.corners, shape, front >= 0, -1, VectorDouble::Zero(), VectorDouble::Zero(), 0};
+        for (int& v : p.vertex) v += first;
+        if (turned) std::reverse(p.vertex.begin(), p.vertex.begin() + p.corners);
+        auto const polygon = mesh.polygon(p);
+        for (VectorDouble const& v : polygon) p.centre += v / static_cast<double>(polygon.size());
+        VectorDouble const area = vector_area(polygon);
+        p.area = area.norm();
+        if (!(p.area > 0)) continue;  // a sliver of a mesh: nothing leaves it
+        p.normal = area / p.area;
+        if (front >= 0) {
+            p.opposite = front++;
+            mesh.patch[static_cast<std::size_t>(p.opposite)].opposite = static_cast<int>(mesh.patch.size());
+        }
+        mesh.patch.push_back(p);
+    }
+}
+
+// Whether a ray that leaves the back of some of a shape's patches meets anything.
+bool shows_its_back(PatchMesh const& fronts, PatchTracer const& tracer, int shape) {
+    constexpr int patches = 16, rays = 16;
+    std::vector<Patch const*> own;
+    for (Patch const& p : fronts.patch)
+        if (p.shape == shape) own.push_back(&p);
+    std::size_t const step = std::max<std::size_t>(1, own.size() / patches);
+    for (std::size_t i = 0; i < own.size(); i += step)
+        for (int k = 0; k < rays; ++k) {
+            Sampler sampler(SamplerKind::sobol, 0, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(k));
+            Direction const local = to_cosine_hemisphere(sampler.next2());
+            Direction const behind = Frame::around((-own[i]->normal).cast<float>()).to_world(local);
+            if (tracer.closest(own[i]->centre, -own[i]->normal, behind.cast<double>())) return true;
+        }
+    return false;
+}
+
+}  // namespace
+
+std::vector<VectorDouble> PatchMesh::polygon(Patch const& p) const {
+    std::vector<VectorDouble> corners;
+    for (int k = 0; k < p.corners; ++k)
+        corners.push_back(position[static_cast<std::size_t>(p.vertex[static_cast<std::size_t>(k)])]);
+    return corners;
+}
+
+PatchMesh make_patches(Scene const& scene, double size_m, std::size_t most) {
+    struct Placed {
+        Shape const* shape;
+        ShapeGeometry geometry;
+    };
+    double expected = 0;
+    for (Shape const& s : scene.shapes) expected += expected_faces(s.geometry, size_m);
+    for (InstancePlacement const& i : scene.instances)
+        for (Shape const& s : scene.objects[static_cast<std::size_t>(i.object)].shapes)
+            expected += expected_faces(s.geometry, size_m);
+    if (expected == 0) throw InputError({}, "", "radiosity: the scene has no surfaces");
+    if (expected > static_cast<double>(most))
+        throw InputError({}, "--size",
+                         fmt::format("patches of {:g} m would be about {:.3g}; allowed: {}", size_m, expected, most));
+    std::vector<Placed> all;
+    for (Shape const& s : scene.shapes) all.push_back({&s, s.geometry});
+    for (InstancePlacement const& i : scene.instances)
+        for (Shape const& s : scene.objects[static_cast<std::size_t>(i.object)].shapes)
+            all.push_back({&s, placed(s.geometry, i.to_world, size_m)});
+
+    PatchMesh fronts;
+    std::vector<Faces> faces;
+    std::vector<int> first;
+    for (Placed const& p : all) {
+        faces.push_back(tessellate(p.geometry, size_m));
+        first.push_back(static_cast<int>(fronts.patch.size()));
+        add_side(fronts, faces.back(), static_cast<int>(fronts.shape.size()), p.shape->flipped, -1);
+        fronts.shape.push_back(p.shape);
+    }
+    PatchTracer const tracer(fronts);
+    PatchMesh mesh = fronts;
+    for (std::size_t s = 0; s < all.size(); ++s)
+        if (shows_its_back(fronts, tracer, static_cast<int>(s)))
+            add_side(mesh, faces[s], static_cast<int>(s), !all[s].shape->flipped, first[s]);
+    return mesh;
+}
+
+PatchTracer::PatchTracer(PatchMesh const& mesh) {
+    auto triangles = std::make_shared<Mesh>();
+    for (VectorDouble const& p : mesh.position) triangles->position.push_back(p.cast<float>());
+    auto const index = [](int i) { return static_cast<std::uint32_t>(i); };
+    for (std::size_t i = 0; i < mesh.patch.size(); ++i) {
+        Patch const& p = mesh.patch[i];
+        if (p.back) continue;
+        for (std::size_t k = 2; k < static_cast<std::size_t>(p.corners); ++k) {
+            triangles->triangle.push_back({index(p.vertex[0]), index(p.vertex[k - 1]), index(p.vertex[k])});
+            sides_.push_back({static_cast<int>(i), p.opposite});
+        }
+    }
+    shapes_.push_back({MeshShape{triangles, false}});
+    accelerator_ =
+        std::make_unique<Accelerator>(shapes_, std::vector<ObjectGeometry>{}, std::vector<InstancePlacement>{});
+    constexpr double relative = 1e-5;  // of the scene: a hundred units in the last place of its coordinates
+    clearance_ = relative * static_cast<double>((accelerator_->upper_bound() - accelerator_->lower_bound()).norm());
+}
+
+std::optional<PatchHit> PatchTracer::closest(Ray const& ray) const {
+    RayStatistics unused;
+    std::optional<Hit> const hit = accelerator_->closest(ray, unused);
+    if (!hit) return std::nullopt;
+    bool const front = ray.direction.dot(hit->point.geometric_normal) < 0;
+    std::array<int, 2> const& side = sides_[hit->primitive];
+    return PatchHit{side[front ? 0 : 1], side[front ? 1 : 0], hit->point.position.cast<double>()};
+}
+
+std::optional<PatchHit> PatchTracer::closest(VectorDouble const& from, VectorDouble const& side,
+                                             VectorDouble const& direction) const {
+    return closest(Ray{(from + clearance_ * side).cast<float>(), direction.cast<float>().normalized()});
+}
+
+bool PatchTracer::visible(VectorDouble const& from, VectorDouble const& side, VectorDouble const& to,
+                          VectorDouble const& other_side) const {
+    VectorDouble const start = from + clearance_ * side, way = to + clearance_ * other_side - start;
+    double const distance = way.norm();
+    RayStatistics unused;
+    return !accelerator_->occluded(
+        Ray{start.cast<float>(), (way / distance).cast<float>(), 0, static_cast<float>(distance)}, unused);
+}
+
+}  // namespace iride::radiosity

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scene cut into patches: planar triangles and quadrilaterals no longer than a wanted size, without T-junctions: an
+// edge that two patches of a surface share is cut alike for both. Curved shapes become facets. A surface that shows its
+// back to something gets patches there too. Area, normal and vertices are of the side that the patch stands for.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace iride::radiosity {
+
+struct Patch {
+    std::array<int, 4> vertex;  // counter-clockwise as seen from its side
+    int corners;                // 3 or 4
+    int shape;                  // index into PatchMesh::shape
+    bool back;                  // of the shape
+    int opposite;               // the patch on its other side, or -1
+    VectorDouble centre, normal;
+    double area;  // m^2
+};
+
+struct PatchMesh {
+    std::vector<VectorDouble> position;  // [vertex], m; sides and shapes share none
+    std::vector<Patch> patch;
+    std::vector<Shape const*> shape;
+
+    std::vector<VectorDouble> polygon(Patch const& p) const;
+};
+
+// Throws InputError when more than `most` patches would come of it (with the number, before they are made), for
+// degenerate triangles of a mesh, and for a scene without surfaces.
+PatchMesh make_patches(Scene const& scene, double size_m, std::size_t most);
+
+// Where a ray first meets a patch.
+struct PatchHit {
+    int patch;       // on the side met; -1: the back of a surface that has no patches there
+    int other_side;  // likewise
+    VectorDouble position;
+};
+
+// Rays among patches. Points lie on patches; what is traced starts `clearance` off the patch, on its side.
+class PatchTracer {
+  public:
+    explicit PatchTracer(PatchMesh const& mesh);
+    std::optional<PatchHit> closest(VectorDouble const& from, VectorDouble const& side,
+                                    VectorDouble const& direction) const;
+    // The same for a ray that starts in the open.
+    std::optional<PatchHit> closest(Ray const& ray) const;
+    // Whether nothing stands between points of two patches.
+    bool visible(VectorDouble const& from, VectorDouble const& side, VectorDouble const& to,
+                 VectorDouble const& other_side) const;
+
+  private:
+    std::vector<std::array<int, 2>> sides_;  // [triangle] patch of its front and back
+    std::vector<Shape> shapes_;
+    std::unique_ptr<Accelerator> accelerator_;
+    double clearance_;
+};
+
+}  // namespace iride::radiosity
