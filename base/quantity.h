@@ -22,6 +22,7 @@ constexpr Dimension operator/(Dimension a, Dimension b) {
 namespace dim {
 inline constexpr Dimension none{};
 inline constexpr Dimension metre{.metre = 1};
+inline constexpr Dimension per_metre{.metre = -1};
 inline constexpr Dimension per_square_metre{.metre = -2};
 inline constexpr Dimension per_steradian{.steradian = -1};
 inline constexpr Dimension per_nanometre{.nanometre = -1};

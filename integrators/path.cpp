@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "integrators/scattering.h"
+#include "integrators/media.h"
 
 namespace iride {
 
@@ -64,7 +64,10 @@ struct Unshadowed {
     Ray shadow_ray;
 };
 
+struct NotCarried {};
+
 // A path under way, at its latest vertex.
+template <bool Media>
 struct Walk {
     PathState state;
     Arrival arrival;
@@ -73,27 +76,34 @@ struct Walk {
     Hit hit;
     std::optional<Interaction> here;
     std::optional<Unshadowed> direct;
+    [[no_unique_address]] std::conditional_t<Media, Surroundings, NotCarried> in;
 };
 
 // The paths of a batch go on together, stage by stage: within a stage they are independent of one another, and the
 // processor works on several of their long chains of dependent arithmetic at a time.
-template <bool Dispersive>
+template <bool Dispersive, bool Media>
 class Path final : public Integrator {
   public:
     explicit Path(RenderPlan const& plan)
         : max_bounces_(plan.max_bounces.value_or(longest_path)),
           light_sampling_(plan.light_sampling),
-          environment_(plan.environment) {}
+          environment_(plan.environment),
+          camera_in_(plan.camera_in) {}
 
     void follow(Scene const& scene, std::span<CameraPath> paths, RayStatistics& statistics) const override {
         Walks walks;
         Alive alive(paths.size());
+        if constexpr (Media)
+            for (std::size_t i = 0; i < paths.size(); ++i)
+                walks[i].in = camera_in_ ? *camera_in_ : surroundings_at(scene, paths[i].ray.origin);
         for (int bounce = 0; !alive.none(); ++bounce) {
             alive.for_each([&](std::size_t i) { walks[i].numbers = numbers_of_vertex(paths[i].sampler, bounce); });
             find_hits(scene, paths, walks, alive, bounce, statistics);
+            if constexpr (Media)
+                alive.keep_if([&](std::size_t i) { return travel_on(scene, paths[i], walks[i], statistics); });
             alive.keep_if([&](std::size_t i) { return arrive(scene, paths[i], walks[i], bounce); });
             if (light_sampling_) sample_lights(scene, paths, walks, alive);
-            alive.for_each([&](std::size_t i) { walks[i].goes_on = scatter(paths[i], walks[i]); });
+            alive.for_each([&](std::size_t i) { walks[i].goes_on = scatter(scene, paths[i], walks[i]); });
             if (light_sampling_) add_direct_light(scene, paths, walks, alive, statistics);
             alive.keep_if([&](std::size_t i) {
                 Walk& walk = walks[i];
@@ -104,6 +114,7 @@ class Path final : public Integrator {
     }
 
   private:
+    using Walk = iride::Walk<Media>;
     using Walks = std::array<Walk, batch_size>;
 
     static void find_hits(Scene const& scene, std::span<CameraPath const> paths, Walks& walks, Alive const& alive,
@@ -116,6 +127,21 @@ class Path final : public Integrator {
         scene.accelerator->closest(std::span(queries).first(count), coherence, statistics);
         count = 0;
         alive.for_each([&](std::size_t i) { walks[i].has_hit = queries[count++].found; });
+    }
+
+    // Through surfaces that are none to the first that is one; false if there is no end to them.
+    bool travel_on(Scene const& scene, CameraPath& path, Walk& walk, RayStatistics& statistics) const {
+        for (int passed = 0;
+             travel(scene, walk.has_hit ? &walk.hit : nullptr, path.wavelengths, path.ray, walk.in, walk.state.weight);
+             ++passed) {
+            if (walk.hit.shape->light >= 0) path.radiance += from_emitter(scene, path, walk);
+            walk.arrival.density.reset();  // shadow rays end here: no light sample gets further
+            if (passed == longest_path) return path.complete = false;
+            ClosestQuery query{&path.ray, &walk.hit};
+            scene.accelerator->closest({&query, 1}, Accelerator::Coherence::none, statistics);
+            walk.has_hit = query.found;
+        }
+        return true;
     }
 
     static void add_direct_light(Scene const& scene, std::span<CameraPath> paths, Walks const& walks,
@@ -156,7 +182,10 @@ class Path final : public Integrator {
             path.complete = max_bounces_ < longest_path;
             return false;
         }
-        walk.here.emplace(scene, walk.hit, -path.ray.direction, path.wavelengths);
+        if constexpr (Media)
+            walk.here.emplace(scene, walk.hit, -path.ray.direction, path.wavelengths, &walk.in);
+        else
+            walk.here.emplace(scene, walk.hit, -path.ray.direction, path.wavelengths);
         return true;
     }
 
@@ -210,11 +239,14 @@ class Path final : public Integrator {
             scene.lights.light(light).answer(std::span(requests).subspan(first, last - first));
         }
         for (std::size_t k = 0; k < count; ++k)
-            if (requests[k].sample) weigh(*requests[k].sample, asking[k].choice.probability, walks[asking[k].walk]);
+            if (requests[k].sample)
+                weigh(scene, *requests[k].sample, asking[k].choice.probability, *requests[k].wavelengths,
+                      walks[asking[k].walk]);
     }
 
     // What a light sample brings along the path if nothing stands between.
-    static void weigh(LightSample const& light, float choice_probability, Walk& walk) {
+    static void weigh(Scene const& scene, LightSample const& light, float choice_probability,
+                      Wavelengths const& wavelengths, Walk& walk) {
         Interaction const& here = *walk.here;
         Direction const wi = here.frame.to_local(light.wi);
         BsdfEvaluation const f = here.bsdf.evaluate(here.wo, wi);
@@ -227,13 +259,15 @@ class Path final : public Integrator {
         else
             competitors = Lanes(choice_probability);
         float const divisor = Dispersive ? float(mean(walk.state.reach * competitors)) : competitors[0];
-        Lanes const scattered(f.value.lane * (cosine / divisor));
+        Lanes scattered(f.value.lane * (cosine / divisor));
+        if constexpr (Media)
+            scattered *= behind(scene, walk.hit, here, wi, walk.in).medium().transmittance(light.distance, wavelengths);
         walk.direct.emplace(walk.state.weight * scattered * light.radiance,
                             spawn_shadow_ray(walk.hit.point, light.wi, light.distance));
     }
 
     // Choose where the path goes on; false if it ends here.
-    static bool scatter(CameraPath& path, Walk& walk) {
+    static bool scatter(Scene const& scene, CameraPath& path, Walk& walk) {
         Interaction const& here = *walk.here;
         auto const sample = here.bsdf.sample(here.wo, {walk.numbers.choices.y, walk.numbers.direction});
         if (!sample) return false;
@@ -247,18 +281,23 @@ class Path final : public Integrator {
         walk.arrival.density = sample->density;
         walk.arrival.from = walk.hit.point.position;
         path.ray = spawn_ray(walk.hit.point, wi);
+        if constexpr (Media) walk.in = behind(scene, walk.hit, here, sample->wi, walk.in);
         return true;
     }
 
     int max_bounces_;
     bool light_sampling_, environment_;
+    std::optional<Surroundings> camera_in_;  // absent: to be found for each path
 };
 
 }  // namespace
 
 std::unique_ptr<Integrator> make_path(Scene const&, RenderPlan const& plan) {
-    if (plan.dispersion) return std::make_unique<Path<true>>(plan);
-    return std::make_unique<Path<false>>(plan);
+    if (plan.media)
+        return plan.dispersion ? std::unique_ptr<Integrator>(std::make_unique<Path<true, true>>(plan))
+                               : std::make_unique<Path<false, true>>(plan);
+    return plan.dispersion ? std::unique_ptr<Integrator>(std::make_unique<Path<true, false>>(plan))
+                           : std::make_unique<Path<false, false>>(plan);
 }
 
 }  // namespace iride

@@ -34,6 +34,23 @@ WavelengthRange seen_range(Scene const& scene) {
     return both.min_nm < both.max_nm ? both : scene.wavelengths;
 }
 
+// What camera rays start in, at places all over the lens and the window; absent if they differ.
+std::optional<Surroundings> surroundings_of_camera(Scene const& scene) {
+    constexpr int places = 5;
+    Camera const camera(scene.camera, scene.film.width, scene.film.height);
+    std::optional<Surroundings> first;
+    for (int i = 0; i < places * places; ++i) {
+        float const x = static_cast<float>(i % places) / (places - 1),
+                    y = static_cast<float>(i / places) / (places - 1);
+        Ray const ray =
+            camera.ray(x * static_cast<float>(scene.film.width), y * static_cast<float>(scene.film.height), {x, y});
+        Surroundings const here = surroundings_at(scene, ray.origin);
+        if (!first) first = here;
+        if (!(here == *first)) return std::nullopt;
+    }
+    return first;
+}
+
 }  // namespace
 
 RenderPlan make_plan(Scene const& scene) {
@@ -50,6 +67,20 @@ RenderPlan make_plan(Scene const& scene) {
                dispersive.empty() ? "no index of a transparent body depends on wavelength: all lanes share "
                                     "every path, their reach is not carried"
                                   : "wavelengths part company in: " + dispersive);
+
+    std::string const absorbing = names_of(scene, [](NamedMaterial const& m) {
+        Body const* const body = m.material->body();
+        return body && (body->inside.absorbs || body->outside.absorbs);
+    });
+    std::string const nested = names_of(
+        scene, [](NamedMaterial const& m) { return m.material->body() && m.material->body()->priority.has_value(); });
+    decide("absorption", !absorbing.empty(),
+           absorbing.empty() ? "no transparent body absorbs" : "light is lost on the way through: " + absorbing);
+    decide("nested bodies", !nested.empty(),
+           nested.empty() ? "no priorities: each surface knows both its sides, what a path is in is not carried for it"
+                          : "what a path is in decides at the surfaces of: " + nested);
+    plan.media = !absorbing.empty() || !nested.empty();
+    if (plan.media) plan.camera_in = surroundings_of_camera(scene);
 
     plan.environment =
         decide("environment", !scene.lights.environments().empty(),

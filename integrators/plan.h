@@ -6,17 +6,19 @@
 #include <string>
 #include <vector>
 
-#include "scene/scene.h"
+#include "scene/bodies.h"
 
 namespace iride {
 
 struct RenderPlan {
     bool dispersion = false;      // lanes part company somewhere: carry their reach
+    bool media = false;           // bodies absorb or lie in one another: carry what a path is in
     bool light_sampling = true;   // some light can be sampled, and some surface can use it
     bool environment = false;     // paths that leave the scene may bring radiance
     WavelengthRange wavelengths;  // where lamps and (observer or bands) overlap: what is sampled
     bool bands = false;
     std::optional<int> max_bounces;
+    std::optional<Surroundings> camera_in;  // absent: not the same for all camera rays
 
     struct Decision {
         std::string name;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The oracle: follow the BSDF, add what emits, nothing clever. Noisy and right. Lights without extent are the one thing
 // that scattering cannot find; they are added directly, there is no other way to reach them.
+#include "integrators/media.h"
 #include "integrators/path.h"
-#include "integrators/scattering.h"
 
 namespace iride {
 
@@ -10,7 +10,9 @@ namespace {
 
 class ReferencePath final : public Integrator {
   public:
-    explicit ReferencePath(RenderPlan const& plan) : max_bounces_(plan.max_bounces.value_or(longest_path)) {}
+    explicit ReferencePath(RenderPlan const& plan)
+        : max_bounces_(plan.max_bounces.value_or(longest_path)),
+          camera_in_(plan.media ? plan.camera_in : Surroundings()) {}
 
     void follow(Scene const& scene, std::span<CameraPath> paths, RayStatistics& statistics) const override {
         for (CameraPath& path : paths) follow_one(scene, path, statistics);
@@ -23,10 +25,16 @@ class ReferencePath final : public Integrator {
         Sampler& sampler = path.sampler;
         Radiance& L = path.radiance;
         PathState state;
-        for (int bounce = 0;; ++bounce) {
+        Surroundings in = camera_in_ ? *camera_in_ : surroundings_at(scene, ray.origin);
+        for (int bounce = 0, passed = 0;; ++bounce) {
             // Mixture over lanes only: divide by the mean reach.
             float const per_reach = 1 / mean(state.reach);
-            std::optional<Hit> const hit = scene.accelerator->closest(ray, statistics);
+            std::optional<Hit> hit = scene.accelerator->closest(ray, statistics);
+            while (travel(scene, hit ? &*hit : nullptr, wavelengths, ray, in, state.weight)) {
+                L += state.weight * emitted_at(scene, *hit, ray, wavelengths) * per_reach;
+                if (++passed > longest_path) return void(path.complete = false);
+                hit = scene.accelerator->closest(ray, statistics);
+            }
             if (!hit) {
                 for (int e : scene.lights.environments())
                     L += state.weight * scene.lights.light(e).arriving(ray.direction, wavelengths) * per_reach;
@@ -39,22 +47,24 @@ class ReferencePath final : public Integrator {
             }
 
             sampler.begin_vertex(static_cast<std::uint32_t>(bounce));
-            Interaction const here(scene, *hit, -ray.direction, wavelengths);
+            Interaction const here(scene, *hit, -ray.direction, wavelengths, &in);
             for (std::size_t i = 0; i < scene.lights.size(); ++i)
-                L += dirac_light(scene, static_cast<int>(i), *hit, here, wavelengths, state, statistics);
+                L += dirac_light(scene, static_cast<int>(i), *hit, here, wavelengths, state, in, statistics);
             auto const sample = here.bsdf.sample(here.wo, {sampler.next(), sampler.next2()});
             if (!sample) return;
             Direction const wi = here.frame.to_world(sample->wi);
             if (!here.is_consistent(wi, sample->wi)) return;
             state.weight *= sample->weight;
             state.reach *= sample->reach;
+            in = behind(scene, *hit, here, sample->wi, in);
             ray = spawn_ray(hit->point, wi);
             if (bounce >= 3 && !survives<true>(state, sampler.next())) return;
         }
     }
 
     static Radiance dirac_light(Scene const& scene, int index, Hit const& hit, Interaction const& here,
-                                Wavelengths const& wavelengths, PathState const& state, RayStatistics& statistics) {
+                                Wavelengths const& wavelengths, PathState const& state, Surroundings const& in,
+                                RayStatistics& statistics) {
         auto const light = scene.lights.light(index).sample(hit.point.position, wavelengths, {0.5f, 0.5f});
         if (!light || light->density) return {};
         Direction const wi = here.frame.to_local(light->wi);
@@ -62,10 +72,13 @@ class ReferencePath final : public Integrator {
         if (is_black(f) || !here.is_consistent(light->wi, wi)) return {};
         if (scene.accelerator->occluded(spawn_shadow_ray(hit.point, light->wi, light->distance), statistics)) return {};
         Lanes const scattered(f.lane * std::abs(wi.z()));  // per steradian, times the light's Dirac steradian
-        return state.weight * scattered * light->radiance * (1 / mean(state.reach));
+        Throughput const let_through =
+            behind(scene, hit, here, wi, in).medium().transmittance(light->distance, wavelengths);
+        return state.weight * scattered * let_through * light->radiance * (1 / mean(state.reach));
     }
 
     int max_bounces_;
+    std::optional<Surroundings> camera_in_;  // absent: to be found for each path
 };
 
 }  // namespace

@@ -20,8 +20,10 @@ struct Interaction {
     Direction geometric_normal;
     Direction wo;  // local
 
-    Interaction(Scene const& scene, Hit const& hit, Direction const& to_viewer, Wavelengths const& wavelengths)
-        : Interaction(scene.material(hit.shape->material), hit, to_viewer, wavelengths) {}
+    // `surroundings`: what the path is in; null if every surface knows what lies before it.
+    Interaction(Scene const& scene, Hit const& hit, Direction const& to_viewer, Wavelengths const& wavelengths,
+                Surroundings const* surroundings = nullptr)
+        : Interaction(scene.material(hit.shape->material), hit, to_viewer, wavelengths, surroundings) {}
 
     // Whether wi (world) leaves on the side of the surface that the local wi says: a shading normal may disagree with
     // the geometry, and light must not leak through.
@@ -30,8 +32,17 @@ struct Interaction {
     }
 
   private:
-    Interaction(Material const& material, Hit const& hit, Direction const& to_viewer, Wavelengths const& wavelengths)
-        : bsdf(material.at(hit.point, wavelengths)), geometric_normal(hit.point.geometric_normal) {
+    static Bsdf closure(Material const& material, Hit const& hit, Direction const& to_viewer,
+                        Wavelengths const& wavelengths, Surroundings const* surroundings) {
+        Body const* const body = surroundings ? material.body() : nullptr;
+        if (!body) return material.at(hit.point, wavelengths);
+        Medium const& outside = surroundings->in_front_of(*body, to_viewer.dot(hit.point.geometric_normal) > 0);
+        return material.at_boundary(hit.point, wavelengths, outside.n.at(wavelengths));
+    }
+    Interaction(Material const& material, Hit const& hit, Direction const& to_viewer, Wavelengths const& wavelengths,
+                Surroundings const* surroundings)
+        : bsdf(closure(material, hit, to_viewer, wavelengths, surroundings)),
+          geometric_normal(hit.point.geometric_normal) {
         float cosine = to_viewer.dot(geometric_normal);
         Direction normal = hit.point.normal;
         if (material.traits.two_sided && cosine < 0) {

@@ -8,13 +8,14 @@
 #include "materials/conductor.h"
 #include "materials/dielectric.h"
 #include "materials/lambert.h"
+#include "materials/thin_slab.h"
 
 namespace iride {
 
 class Bsdf {
   public:
     using Model = std::variant<Black, Lambert, SmoothConductor, RoughConductor, InterreflectingConductor,
-                               SmoothDielectric, SmoothCoatedConductor, RoughCoatedConductor>;
+                               SmoothDielectric, SmoothCoatedConductor, RoughCoatedConductor, ThinSlab>;
 
     template <BsdfModel T>
     Bsdf(T const& model) : model_(model) {}

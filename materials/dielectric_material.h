@@ -8,18 +8,21 @@ namespace iride {
 
 class DielectricMaterial : public Material {
   public:
-    DielectricMaterial(Index inside, Index outside)
+    explicit DielectricMaterial(Body body)
         : Material({.two_sided = false,
-                    .dispersive = !inside.is_constant() || !outside.is_constant(),
+                    .dispersive = !body.inside.n.is_constant() || !body.outside.n.is_constant(),
                     .has_density = false}),
-          inside_(std::move(inside)),
-          outside_(std::move(outside)) {}
-    Bsdf at(SurfacePoint const&, Wavelengths const& w) const override {
-        return SmoothDielectric{inside_.at(w), outside_.at(w)};
+          body_(std::move(body)) {}
+    Bsdf at(SurfacePoint const& point, Wavelengths const& w) const override {
+        return at_boundary(point, w, body_.outside.n.at(w));
     }
+    Bsdf at_boundary(SurfacePoint const&, Wavelengths const& w, Lanes outside) const override {
+        return SmoothDielectric{body_.inside.n.at(w), outside};
+    }
+    Body const* body() const override { return &body_; }
 
   private:
-    Index inside_, outside_;
+    Body body_;
 };
 
 }  // namespace iride

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "materials/closure.h"
+#include "materials/medium.h"
 #include "materials/surface_point.h"
 #include "spectral/spectrum.h"
 
@@ -19,6 +20,13 @@ class Material {
   public:
     virtual ~Material() = default;
     virtual Bsdf at(SurfacePoint const& point, Wavelengths const& wavelengths) const = 0;
+
+    // The transparent body that this surface bounds; null for all others.
+    virtual Body const* body() const { return nullptr; }
+    // The closure where a medium of index `outside` lies in front of that body.
+    virtual Bsdf at_boundary(SurfacePoint const& point, Wavelengths const& wavelengths, Lanes /*outside*/) const {
+        return at(point, wavelengths);
+    }
 
     MaterialTraits const traits;
 

@@ -7,6 +7,7 @@
 
 #include "base/random.h"
 #include "colour/rgb_space.h"
+#include "scene/bodies.h"
 #include "scene/readers.h"
 
 namespace iride {
@@ -195,6 +196,8 @@ std::unique_ptr<Scene> load_scene(std::filesystem::path const& path) {
     for (Remark const& remark : context.remarks) scene->remarks.push_back(remark.text());
     scene->hash = hash_files(context.files_read);
     scene->accelerator = std::make_unique<Accelerator>(scene->shapes, scene->objects, scene->instances);
+    if (auto wrong = check_nesting(*scene, path.string(), scene->remarks); !wrong.empty())
+        throw InputError(std::move(wrong));
     scene->lights = LightSet(std::move(builder.lights), scene->radius());
     return scene;
 }

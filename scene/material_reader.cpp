@@ -9,10 +9,12 @@ namespace iride {
 
 namespace {
 
-constexpr std::array<MaterialEntry, 4> table{{
+constexpr std::array<MaterialEntry, 5> table{{
     {"diffuse", "Lambert's law, on both sides", read_diffuse},
     {"conductor", "a metal by its n + ik, smooth or GGX rough, bare or under thin films", read_conductor},
-    {"dielectric", "a smooth transparent body, dispersive where its index is", read_dielectric},
+    {"dielectric", "a smooth transparent body, dispersive where its index is, absorbing, nested by priority",
+     read_dielectric},
+    {"slab", "a thin pane of a transparent medium, as one surface", read_slab},
     {"black", "absorbs everything", read_black},
 }};
 
@@ -27,7 +29,7 @@ int read_material(SceneBuilder& b, JsonValue const& value, std::string const& pa
     MaterialPointer material = entry->reader(b, fields);
     fields.finish();
     if (!material) material = std::make_unique<BlackMaterial>();  // an error was reported: never rendered
-    b.scene.materials.push_back({name, entry->name, std::move(material)});
+    b.scene.materials.push_back({name, entry->name, std::move(material), path, value.line, value.column});
     return static_cast<int>(b.scene.materials.size()) - 1;
 }
 

@@ -28,7 +28,7 @@ struct SpectrumKind {
     bool may_scale_luminance;
     double least, most;  // allowed values over the render range
 };
-extern SpectrumKind const reflectance_kind, emission_kind, index_kind;
+extern SpectrumKind const reflectance_kind, emission_kind, transmittance_kind, absorption_kind, index_kind;
 
 // The spectrum under `key` (required), checked over the render range.
 std::optional<SpectralFunction> read_spectrum(SceneBuilder& builder, Fields& fields, std::string const& key,

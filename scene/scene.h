@@ -42,6 +42,8 @@ struct RenderDefaults {
 struct NamedMaterial {
     std::string name, type;
     std::unique_ptr<Material const> material;
+    std::string key_path{};  // where the scene file has it
+    int line = 0, column = 0;
 };
 
 // What the plan wants to know of a light's spectrum.

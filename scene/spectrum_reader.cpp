@@ -59,7 +59,7 @@ std::optional<SpectralFunction> from_rgb(SceneBuilder& b, Fields& o, SpectrumKin
     if (!rgb || !space) return std::nullopt;
     RgbEncoding const& encoding = rgb_encoding(*space);
     Eigen::Vector3d const linear = rgb->unaryExpr([&](double v) { return decode(encoding.transfer, v); });
-    RgbRole const role = kind.quantity == SpectralQuantity::reflectance ? RgbRole::reflectance : RgbRole::emission;
+    RgbRole const role = kind.most <= 1 + reflectance_slack ? RgbRole::reflectance : RgbRole::emission;
     std::optional<SpectralFunction> result;
     b.context.guarded(*o.find("rgb"), o.path("rgb"), [&] { result = rgb_to_spectrum(linear, *encoding.space, role); });
     return result;
@@ -85,6 +85,8 @@ std::optional<SpectralFunction> from_object(SceneBuilder& b, JsonValue const& va
     } else {
         if (kind.quantity == SpectralQuantity::complex_index)
             o.error_at("rgb", "an index of refraction has no RGB");
+        else if (kind.quantity == SpectralQuantity::absorption)
+            o.error_at("rgb", "an absorption has no RGB: say the colour at a distance, \"absorption\"");
         else
             result = from_rgb(b, o, kind);
     }
@@ -168,6 +170,8 @@ std::optional<SpectralFunction> read_value(SceneBuilder& b, JsonValue const& val
 
 SpectrumKind const reflectance_kind{SpectralQuantity::reflectance, Outside::hold, false, 0, 1 + reflectance_slack};
 SpectrumKind const emission_kind{SpectralQuantity::radiance, Outside::zero, true, 0, unbounded};
+SpectrumKind const transmittance_kind{SpectralQuantity::transmittance, Outside::hold, false, 0, 1 + reflectance_slack};
+SpectrumKind const absorption_kind{SpectralQuantity::absorption, Outside::hold, false, 0, unbounded};
 SpectrumKind const index_kind{SpectralQuantity::complex_index, Outside::error, false, 0, 1000};
 
 std::optional<SpectralFunction> read_spectrum(SceneBuilder& b, Fields& fields, std::string const& key,

@@ -36,7 +36,7 @@ std::map<std::string, Entry> const& catalogue() {
     return entries;
 }
 
-bool is_index(std::string const& column) { return column == "nk" || column == "n"; }
+bool is_index(std::string const& column) { return column == "nk" || column == "n" || column == "k"; }
 
 char const* described(SpectralQuantity quantity) {
     switch (quantity) {
@@ -52,6 +52,8 @@ char const* described(SpectralQuantity quantity) {
             return "set of matching functions";
         case SpectralQuantity::transmittance:
             return "transmittance";
+        case SpectralQuantity::absorption:
+            return "absorption coefficient";
     }
     return "";
 }
@@ -61,6 +63,7 @@ bool serves(std::string const& column, SpectralQuantity quantity) {
     bool const emission = column == "power" || column == "radiance";
     if (quantity == SpectralQuantity::complex_index) return is_index(column);
     if (quantity == SpectralQuantity::power || quantity == SpectralQuantity::radiance) return emission;
+    if (quantity == SpectralQuantity::absorption) return false;
     return !emission && !is_index(column);
 }
 
@@ -116,6 +119,7 @@ Outside outside_of(SpectralQuantity quantity) {
             return Outside::error;
         case SpectralQuantity::reflectance:
         case SpectralQuantity::transmittance:
+        case SpectralQuantity::absorption:
             return Outside::hold;
         default:
             return Outside::zero;
@@ -132,7 +136,7 @@ std::filesystem::path data_folder() {
 std::vector<std::string> catalogue_names(SpectralQuantity quantity) {
     std::vector<std::string> names;
     for (auto const& [name, entry] : catalogue())
-        if (serves(entry.column, quantity)) names.push_back(name);
+        if (serves(entry.column, quantity) && entry.column != "k") names.push_back(name);
     return names;
 }
 
@@ -157,6 +161,7 @@ ComplexIndex load_complex_index(std::string const& name, std::filesystem::path c
     std::filesystem::path path = folder / name;
     if (entry != catalogue().end()) {
         if (!is_index(entry->second.column)) fail(fmt::format("'{}' is no index of refraction", name));
+        if (entry->second.column == "k") fail(fmt::format("'{}' holds k alone, but n and k are wanted", name));
         path = data_folder() / entry->second.file;
     } else if (!std::filesystem::exists(path)) {
         fail(unknown(name, SpectralQuantity::complex_index));

@@ -17,7 +17,15 @@
 
 namespace iride {
 
-enum class SpectralQuantity { power, radiance, reflectance, complex_index, matching_functions, transmittance };
+enum class SpectralQuantity {
+    power,
+    radiance,
+    reflectance,
+    complex_index,
+    matching_functions,
+    transmittance,
+    absorption
+};
 
 // A spectrum file as read: its columns share one wavelength column; a dispersion formula has no columns.
 struct SpectrumFile {

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// Paths through bodies that absorb or lie in one another. On the way to a surface the weight of each lane falls by the
+// medium's transmittance, which is no matter of chance: the reach stays. Surfaces that are none, of a body inside one
+// of higher priority, are passed without being counted as a scattering.
+#pragma once
+
+#include "integrators/scattering.h"
+#include "scene/bodies.h"
+
+namespace iride {
+
+// Take the weight along the ray to its end; no hit: to infinity. True if there is a surface that is none: the ray then
+// goes on behind it.
+inline bool travel(Scene const& scene, Hit const* hit, Wavelengths const& wavelengths, Ray& ray,
+                   Surroundings& surroundings, Throughput& weight) {
+    Body const* const body = hit ? body_at(scene, *hit) : nullptr;
+    bool const front = hit && is_met_in_front(*hit, ray.direction);
+    if (body) surroundings.meet(*body, front);
+    weight *= surroundings.medium().transmittance(hit ? hit->distance : infinity, wavelengths);
+    if (!body || !surroundings.is_no_surface(*body, front)) return false;
+    surroundings.cross(*body, front);
+    ray = spawn_ray(hit->point, ray.direction);
+    return true;
+}
+
+// What a path that comes along wo and goes on along wi, both local, is in then.
+inline Surroundings behind(Scene const& scene, Hit const& hit, Interaction const& here, Direction const& wi,
+                           Surroundings const& before) {
+    Surroundings after = before;
+    Body const* const body = body_at(scene, hit);
+    if (body && (here.wo.z() > 0) != (wi.z() > 0)) after.cross(*body, here.wo.z() > 0);
+    return after;
+}
+
+}  // namespace iride
