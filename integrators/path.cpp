@@ -44,7 +44,8 @@ class Alive {
 // The decisions at a vertex: a block of the sampler.
 struct VertexNumbers {
     Sample2 choices;  // x: which light, y: which lobe
-    Sample2 light, direction, roulette;
+    Sample2 light, direction;
+    Sample2 chances;  // x: roulette, y: which part of a mixture
 };
 VertexNumbers numbers_of_vertex(Sampler& sampler, int vertex) {
     sampler.begin_vertex(static_cast<std::uint32_t>(vertex));
@@ -108,7 +109,7 @@ class Path final : public Integrator {
             alive.keep_if([&](std::size_t i) {
                 Walk& walk = walks[i];
                 return walk.goes_on &&
-                       (bounce < roulette_from || survives<Dispersive>(walk.state, walk.numbers.roulette.x));
+                       (bounce < roulette_from || survives<Dispersive>(walk.state, walk.numbers.chances.x));
             });
         }
     }
@@ -182,6 +183,7 @@ class Path final : public Integrator {
             path.complete = max_bounces_ < longest_path;
             return false;
         }
+        describe_meeting(walk.hit.point, -path.ray.direction, walk.numbers.chances.y);
         if constexpr (Media)
             walk.here.emplace(scene, walk.hit, -path.ray.direction, path.wavelengths, &walk.in);
         else

@@ -47,6 +47,8 @@ class ReferencePath final : public Integrator {
             }
 
             sampler.begin_vertex(static_cast<std::uint32_t>(bounce));
+            Sample2 const chances = sampler.next2();  // x: roulette, y: which part of a mixture
+            describe_meeting(hit->point, -ray.direction, chances.y);
             Interaction const here(scene, *hit, -ray.direction, wavelengths, &in);
             for (std::size_t i = 0; i < scene.lights.size(); ++i)
                 L += dirac_light(scene, static_cast<int>(i), *hit, here, wavelengths, state, in, statistics);
@@ -58,7 +60,7 @@ class ReferencePath final : public Integrator {
             state.reach *= sample->reach;
             in = behind(scene, *hit, here, sample->wi, in);
             ray = spawn_ray(hit->point, wi);
-            if (bounce >= 3 && !survives<true>(state, sampler.next())) return;
+            if (bounce >= 3 && !survives<true>(state, chances.x)) return;
         }
     }
 

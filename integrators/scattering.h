@@ -13,6 +13,12 @@ struct PathState {
     Lanes reach{1.0f};        // product of p_lane / p_hero; 0: this lane could not have come this way
 };
 
+// What a material may ask about a meeting, set before its closure is made. `choice`: a random number of its own.
+inline void describe_meeting(SurfacePoint& point, Direction const& to_viewer, float choice) {
+    point.from_front = to_viewer.dot(point.geometric_normal) > 0;
+    point.choice = choice;
+}
+
 // A surface point met from direction `to_viewer`: closure, and the frame its directions are in.
 struct Interaction {
     Bsdf bsdf;
