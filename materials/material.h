@@ -12,8 +12,10 @@ namespace iride {
 // What is known of a material before it is hit.
 struct MaterialTraits {
     bool two_sided = true;  // acts alike on both sides: the frame is turned to wo; dielectrics tell inside from outside
-    bool dispersive = false;  // wavelengths part company here
-    bool has_density = true;  // some closure has a density: if none has, light sampling is in vain
+    bool dispersive = false;   // wavelengths part company here
+    bool has_density = true;   // some closure has a density: if none has, light sampling is in vain
+    bool textured = false;     // looks at uv
+    bool anisotropic = false;  // looks at the tangent
 };
 
 class Material {
