@@ -220,9 +220,9 @@ std::vector<Diagnostic> check_nesting(Scene const& scene, std::string const& fil
         diagnostics.push_back(
             {{file, a.line, a.column},
              a.key_path,
-             fmt::format("{} near ({:.3g}, {:.3g}, {:.3g}) m: allowed: whole numbers that differ, the higher fills the "
-                         "place; or, for a body that lies in another, its 'exterior_ior'",
-                         text, place.x(), place.y(), place.z())});
+             fmt::format("near ({:.3g}, {:.3g}, {:.3g}) m it {}; allowed: whole numbers that differ, the higher fills "
+                         "the place, or, for a body that lies in another, its 'exterior_ior'",
+                         place.x(), place.y(), place.z(), text)});
     }
     for (int i : bodies) {
         NamedMaterial const& m = scene.materials[static_cast<std::size_t>(i)];

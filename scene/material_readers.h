@@ -14,6 +14,11 @@ MaterialPointer read_conductor(SceneBuilder& builder, Fields& fields);
 MaterialPointer read_dielectric(SceneBuilder& builder, Fields& fields);
 MaterialPointer read_slab(SceneBuilder& builder, Fields& fields);
 
+// Light that falls to 1/e within 80 wavelengths does not make a transparent body: metals have k of 1 and more, glass of
+// 1e-8, ink of 1e-4. Up to here the Fresnel equations take n alone; what that leaves out is in
+// tests/materials/fresnel_closed_forms.cpp: 2e-6 from outside, for n >= 1.3.
+inline constexpr double largest_transparent_k = 1e-3;
+
 // What fills a transparent body: the index under `key`, its k and the keys "absorption", "absorption_per_m".
 std::optional<Medium> read_medium(SceneBuilder& builder, Fields& fields, std::string const& key);
 // The same of the index alone.

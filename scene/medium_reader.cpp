@@ -11,10 +11,6 @@ namespace iride {
 
 namespace {
 
-// Light that falls to 1/e within 80 wavelengths does not make a transparent body: metals have k of 1 and more, glass of
-// 1e-8, ink of 1e-4. Up to here the Fresnel equations from outside with n alone are right to 2e-6 (n >= 1.3).
-constexpr double largest_k = 1e-3;
-
 double k_of(double sigma_a, double nm) { return sigma_a * nm * 1e-9 / (4 * pi_double); }
 double sigma_a_of(double k, double nm) { return 4 * pi_double * k / (nm * 1e-9); }
 
@@ -51,9 +47,9 @@ std::optional<Coefficient> read_stated_absorption(SceneBuilder& b, Fields& f) {
 
 bool is_transparent(SceneBuilder& b, Fields& f, std::string const& key, ComplexIndex const& index) {
     double const k = index.k.largest(b.scene.wavelengths);
-    if (k <= largest_k) return true;
+    if (k <= largest_transparent_k) return true;
     f.error_at(key, fmt::format("found k up to {:g}, allowed for a transparent body: 0 .. {}; a metal is a 'conductor'",
-                                k, largest_k));
+                                k, largest_transparent_k));
     return false;
 }
 
@@ -87,11 +83,11 @@ std::optional<Medium> read_medium(SceneBuilder& b, Fields& f, std::string const&
     WavelengthRange const range = b.scene.wavelengths;
     for (double nm = range.min_nm; nm <= range.max_nm; ++nm)
         if (double const k = k_of((*stated)(nm), nm); !(k <= strongest)) strongest = k, at_nm = nm;
-    if (!(strongest <= largest_k)) {
+    if (!(strongest <= largest_transparent_k)) {
         f.error_at(f.find("absorption") ? "absorption" : "absorption_per_m",
                    fmt::format("found {:g} 1/m at {} nm, as much as k = {:g}, allowed for a transparent body: k of 0 "
                                ".. {}; a metal is a 'conductor'",
-                               (*stated)(at_nm), at_nm, strongest, largest_k));
+                               (*stated)(at_nm), at_nm, strongest, largest_transparent_k));
         return std::nullopt;
     }
     return medium_of(b, *index, *stated);
