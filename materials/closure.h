@@ -7,7 +7,10 @@
 
 #include "materials/conductor.h"
 #include "materials/dielectric.h"
+#include "materials/heuristic.h"
 #include "materials/lambert.h"
+#include "materials/oren_nayar.h"
+#include "materials/plastic.h"
 #include "materials/thin_slab.h"
 
 namespace iride {
@@ -15,7 +18,8 @@ namespace iride {
 class Bsdf {
   public:
     using Model = std::variant<Black, Lambert, SmoothConductor, RoughConductor, InterreflectingConductor,
-                               SmoothDielectric, SmoothCoatedConductor, RoughCoatedConductor, ThinSlab>;
+                               SmoothDielectric, SmoothCoatedConductor, RoughCoatedConductor, ThinSlab, OrenNayar,
+                               SmoothPlastic, RoughPlastic, Phong, BlinnPhong, ModifiedBlinnPhong>;
 
     template <BsdfModel T>
     Bsdf(T const& model) : model_(model) {}

@@ -36,10 +36,4 @@ class Material {
     explicit Material(MaterialTraits const& t) : traits(t) {}
 };
 
-// A diffuse emitter: the same radiance in every direction of its front (or both) sides.
-struct Emitter {
-    Emission radiance;
-    bool two_sided = false;
-};
-
 }  // namespace iride

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Diffuse emitters on shapes.
+// Emitters on shapes.
 #include <array>
 
 #include "base/simd.h"
@@ -20,32 +20,41 @@ class AreaLight : public Light {
         : strength_(std::move(strength)), area_(area), flipped_(flipped) {}
 
     Radiance emitted(SurfacePoint const& on, Direction const& wo, Wavelengths const& wavelengths) const override {
-        if (!strength_.emitter.two_sided && wo.dot(on.geometric_normal) <= 0) return {};
-        return strength_.emitter.radiance.at(wavelengths);
+        float const share = strength_.emitter.share(wo.dot(on.geometric_normal));
+        return share > 0 ? strength_.emitter.radiance.at(wavelengths) * share : Radiance{};
     }
-    double power(double) const override { return pi_double * area_ * strength_.luminance * sides(); }
+    double power(double) const override {
+        return strength_.emitter.profile.exitance() * area_ * strength_.luminance * sides();
+    }
 
   protected:
     int sides() const { return strength_.emitter.two_sided ? 2 : 1; }
 
-    // Whether a point of outward normal n shines along -d.
+    // Whether a point of outward normal n may shine along -d.
     bool shines(Vector const& d, Direction const& n) const {
-        float const facing = flipped_ ? d.dot(n) : -d.dot(n);
-        return facing > 0 || (facing < 0 && strength_.emitter.two_sided);
+        float const side = facing(d, n);
+        return side > 0 || (side < 0 && strength_.emitter.two_sided);
+    }
+    // The share of the radiance that goes along -d, `distance` long, from where shines(d, n).
+    float share(Vector const& d, float distance, Direction const& n) const {
+        Emitter const& e = strength_.emitter;
+        return e.profile.is_diffuse() ? 1 : e.share(facing(d, n) / distance);
     }
 
-    // Answer with the place at d from the asking point, found with the given density; it shines.
-    void put(LightRequest& r, Vector const& d, PerSteradian density) const {
+    // Answer with the place at d from the asking point, of outward normal n, where it shines; found with the given
+    // density.
+    void put(LightRequest& r, Vector const& d, Direction const& n, PerSteradian density) const {
         float const distance = d.norm();
-        if (distance > 0 && density.value > 0 && density.value < infinity)
-            r.sample.emplace(d / distance, distance, strength_.emitter.radiance.at(*r.wavelengths), density);
+        if (!(distance > 0 && density.value > 0 && density.value < infinity)) return;
+        float const s = share(d, distance, n);
+        if (s > 0) r.sample.emplace(d / distance, distance, strength_.emitter.radiance.at(*r.wavelengths) * s, density);
     }
 
     // A point of the surface with its outward normal, found with the given density.
     std::optional<LightSample> towards(Vector const& from, Vector const& point, Direction const& outward,
                                        Wavelengths const& wavelengths, PerSteradian density) const {
         LightRequest request{from, {}, &wavelengths};
-        if (shines(point - from, outward)) put(request, point - from, density);
+        if (shines(point - from, outward)) put(request, point - from, outward, density);
         return request.sample;
     }
 
@@ -58,6 +67,10 @@ class AreaLight : public Light {
     EmitterStrength strength_;
     double area_;
     bool flipped_;
+
+  private:
+    // |d| cos of the angle between -d and the front's normal.
+    float facing(Vector const& d, Direction const& n) const { return flipped_ ? d.dot(n) : -d.dot(n); }
 };
 
 // Uniform in the cone that the sphere fills, seen from outside; by area from inside.
@@ -81,9 +94,10 @@ class SphereLight final : public AreaLight {
         float const half_chord2 = square(sphere_.radius) - (d - along * wi).squaredNorm();
         Vector const point = from + (along - std::sqrt(std::max(0.0f, half_chord2))) * wi;
         Direction const n = (point - sphere_.centre).normalized();
-        if (!shines(wi, n)) return std::nullopt;
+        float const s = shines(wi, n) ? share(wi, 1, n) : 0;
+        if (s == 0) return std::nullopt;
         return std::optional<LightSample>(std::in_place, wi, (point - from).norm(),
-                                          strength_.emitter.radiance.at(wavelengths), cone_density(height));
+                                          strength_.emitter.radiance.at(wavelengths) * s, cone_density(height));
     }
     PerSteradian density(Vector const& from, SurfacePoint const& on, std::uint32_t) const override {
         if (outside(from)) return cone_density(cone_height(from));
@@ -141,7 +155,7 @@ class RectangleLight final : public AreaLight {
             r.sample.reset();
             if (!shines(rectangle_.corner - r.from, rectangle_.normal)) continue;
             if (solid_angle[i] > smallest_solid_angle)
-                put(r, {d[0][i], d[1][i], d[2][i]}, PerSteradian(1 / solid_angle[i]));
+                put(r, {d[0][i], d[1][i], d[2][i]}, rectangle_.normal, PerSteradian(1 / solid_angle[i]));
             else
                 sample_area(r);
         }
@@ -150,7 +164,8 @@ class RectangleLight final : public AreaLight {
     void sample_area(LightRequest& r) const {
         Vector const point =
             rectangle_.corner + r.u.x * rectangle_.width * rectangle_.x + r.u.y * rectangle_.height * rectangle_.y;
-        put(r, point - r.from, area_density(static_cast<float>(area_), r.from, point, rectangle_.normal));
+        put(r, point - r.from, rectangle_.normal,
+            area_density(static_cast<float>(area_), r.from, point, rectangle_.normal));
     }
 
     Rectangle rectangle_;

@@ -9,24 +9,51 @@ namespace {
 class SpotLight final : public Light {
   public:
     SpotLight(Vector const& position, SpotCone cone, Spectrum<dim::spectral_intensity> intensity, double luminance)
-        : position_(position), cone_(std::move(cone)), intensity_(std::move(intensity)), luminance_(luminance) {}
+        : position_(position), cone_(std::move(cone)), intensity_(std::move(intensity)) {
+        power_ = luminance * effective_solid_angle();
+    }
 
     std::optional<LightSample> sample(Vector const& from, Wavelengths const& wavelengths, Sample2) const override {
         Vector const d = position_ - from;
         float const distance = d.norm();
         if (!(distance > 0)) return std::nullopt;
         Direction const wi = d / distance;
-        float const share = falloff(-wi.dot(cone_.axis));
+        float const share = share_along(-wi);
         if (share == 0) return std::nullopt;
         Radiance const arriving((intensity_.at(wavelengths) * (share / square(distance))).lane);
         return std::optional<LightSample>(std::in_place, wi, distance, arriving, std::nullopt);
     }
-    // Intensity times the solid angle of the cone's middle.
-    double power(double) const override {
-        return luminance_ * 2 * pi_double * (1 - 0.5 * static_cast<double>(cone_.cos_full + cone_.cos_end));
-    }
+    double power(double) const override { return power_; }
 
   private:
+    // The share of the intensity that goes along d.
+    float share_along(Direction const& d) const {
+        float const cosine = d.dot(cone_.axis), within = falloff(cosine);
+        if (within == 0 || !(cone_.exponent > 0 || cone_.flaps)) return within;
+        if (!(cosine > 0)) return 0;
+        if (cone_.flaps && !passes(*cone_.flaps, d, cosine)) return 0;
+        return cone_.exponent == 0 ? within : within * std::pow(cosine, cone_.exponent);
+    }
+    static bool passes(SpotFlaps const& f, Direction const& d, float cosine) {
+        float const x = d.dot(f.x) / cosine, y = d.dot(f.y) / cosine;
+        return x >= f.least.x() && x <= f.most.x() && y >= f.least.y() && y <= f.most.y();
+    }
+
+    // int share(d) over all directions [sr], by the midpoint rule over the cone.
+    double effective_solid_angle() const {
+        int const heights = 512, azimuths = cone_.flaps ? 256 : 1;
+        auto const height = 1 - static_cast<double>(cone_.cos_end);
+        Frame const frame = Frame::around(cone_.axis);
+        double sum = 0;
+        for (int i = 0; i < heights; ++i)
+            for (int j = 0; j < azimuths; ++j) {
+                Sample2 const u{(static_cast<float>(i) + 0.5f) / static_cast<float>(heights),
+                                (static_cast<float>(j) + 0.5f) / static_cast<float>(azimuths)};
+                sum += static_cast<double>(share_along(frame.to_world(to_cone(u, static_cast<float>(height)))));
+            }
+        return sum / (heights * azimuths) * 2 * pi_double * height;
+    }
+
     float falloff(float cosine) const {
         if (cosine >= cone_.cos_full) return 1;
         if (cosine <= cone_.cos_end) return 0;
@@ -37,7 +64,7 @@ class SpotLight final : public Light {
     Vector position_;
     SpotCone cone_;
     Spectrum<dim::spectral_intensity> intensity_;
-    double luminance_;
+    double power_;
 };
 
 class DistantLight final : public Light {

@@ -10,7 +10,8 @@
 #include "base/check.h"
 #include "base/distribution.h"
 #include "base/warp.h"
-#include "materials/material.h"
+#include "materials/emission.h"
+#include "materials/surface_point.h"
 #include "scene/shape.h"
 
 namespace iride {
@@ -64,9 +65,17 @@ std::unique_ptr<Light> make_area_light(Shape const& shape, EmitterStrength stren
 
 std::unique_ptr<Light> make_point_light(Vector const& position, Spectrum<dim::spectral_intensity> intensity,
                                         double luminance);
+// Barn doors: planes through the lamp, parallel to one of two axes beside its beam. Light passes where the tangents of
+// its direction, x and y over the part along the beam, are within limits.
+struct SpotFlaps {
+    Direction x, y;  // with the beam's axis an orthonormal frame
+    Vector2 least, most;
+};
 struct SpotCone {
     Direction axis;
     float cos_full, cos_end;  // full inside cos_full, smooth cubic down to 0 at cos_end
+    float exponent = 0;       // of a cosine power on top of it: nothing then goes backwards [Warn 1983]
+    std::optional<SpotFlaps> flaps = {};
 };
 std::unique_ptr<Light> make_spot_light(Vector const& position, SpotCone cone,
                                        Spectrum<dim::spectral_intensity> intensity, double luminance);

@@ -81,17 +81,43 @@ void read_point(SceneBuilder& b, Fields& f) {
     add_light(b, make_point_light(position, I, luminance), "point", *intensity, luminance);
 }
 
+// Barn doors of a lamp with the given beam: limits of angle towards its right (x) and up (y), seen from behind it.
+std::optional<SpotFlaps> read_flaps(SceneBuilder& b, Fields& f, VectorDouble const& beam) {
+    VectorDouble const up = f.vector("up").value_or(VectorDouble(0, 1, 0)), right = beam.cross(up);
+    JsonValue const* const value = f.find("flaps");
+    if (!value) return std::nullopt;
+    if (!(right.norm() > 1e-6 * up.norm())) {
+        f.error("'flaps' need an 'up' that is not parallel to the beam");
+        return std::nullopt;
+    }
+    Fields g(b.context, *value, f.path("flaps"));
+    SpotFlaps flaps{right.normalized().cast<float>(), right.cross(beam).normalized().cast<float>(), {}, {}};
+    for (auto const& [axis, key] : {std::pair(0, "x_deg"), {1, "y_deg"}}) {
+        auto const limits = g.numbers(key, 2);
+        double const least = limits ? (*limits)[0] : -90, most = limits ? (*limits)[1] : 90;
+        if (!(least >= -90 && least < most && most <= 90))
+            g.error_at(key, "allowed: [from, to] in degrees with -90 <= from < to <= 90");
+        flaps.least[axis] = static_cast<float>(std::tan(radians(least)));
+        flaps.most[axis] = static_cast<float>(std::tan(radians(most)));
+    }
+    g.finish();
+    return flaps;
+}
+
 void read_spot(SceneBuilder& b, Fields& f) {
     VectorDouble const position = f.required_vector("position"), target = f.required_vector("target");
     double const end = f.required_number("cone_deg", {.least = 0, .most = 180, .least_excluded = true});
     double const full = f.number("full_deg", between(0, 180)).value_or(0);
     auto const intensity = read_spectrum(b, f, "intensity", emission_kind);
+    double const exponent = f.number("exponent", between(0, largest_emission_exponent)).value_or(0);
+    VectorDouble const beam = (target - position).normalized();
+    auto const flaps = read_flaps(b, f, beam);
     if ((target - position).norm() == 0) return f.error("'position' and 'target' are the same point");
-    if (full >= end) return f.error("'full_deg' must be below 'cone_deg'");
+    if (full > end) return f.error("'full_deg' must not be above 'cone_deg'");
     if (!intensity) return;
     double const luminance = luminance_of(*intensity);
-    SpotCone const cone{(target - position).normalized().cast<float>(), static_cast<float>(std::cos(radians(full))),
-                        static_cast<float>(std::cos(radians(end)))};
+    SpotCone const cone{beam.cast<float>(), static_cast<float>(std::cos(radians(full))),
+                        static_cast<float>(std::cos(radians(end))), static_cast<float>(exponent), flaps};
     Spectrum<dim::spectral_intensity> const I(*intensity, b.scene.grid);
     add_light(b, make_spot_light(metres(b, position), cone, I, luminance), "spot", *intensity, luminance);
 }

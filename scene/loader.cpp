@@ -122,8 +122,8 @@ void read_materials(SceneBuilder& b, Fields& top) {
     JsonObject const* const object = value->as<JsonObject>();
     if (!object)
         return top.error_at("materials", "found " + value->described() + ", but an object of materials is wanted");
-    for (auto const& [name, material] : *object)
-        b.material_by_name[name] = read_material(b, material, "materials." + name, name);
+    for (auto const& [name, material] : *object) b.named_materials[name].value = &material;
+    for (auto const& entry : *object) read_named_material(b, entry.first);
 }
 
 void read_objects(SceneBuilder& b, Fields& top) {

@@ -13,6 +13,13 @@ MaterialPointer read_black(SceneBuilder& builder, Fields& fields);
 MaterialPointer read_conductor(SceneBuilder& builder, Fields& fields);
 MaterialPointer read_dielectric(SceneBuilder& builder, Fields& fields);
 MaterialPointer read_slab(SceneBuilder& builder, Fields& fields);
+MaterialPointer read_oren_nayar(SceneBuilder& builder, Fields& fields);
+MaterialPointer read_plastic(SceneBuilder& builder, Fields& fields);
+MaterialPointer read_mixture(SceneBuilder& builder, Fields& fields);
+MaterialPointer read_two_sided(SceneBuilder& builder, Fields& fields);
+MaterialPointer read_phong(SceneBuilder& builder, Fields& fields);
+MaterialPointer read_blinn_phong(SceneBuilder& builder, Fields& fields);
+MaterialPointer read_modified_blinn_phong(SceneBuilder& builder, Fields& fields);
 
 // Light that falls to 1/e within 80 wavelengths does not make a transparent body: metals have k of 1 and more, glass of
 // 1e-8, ink of 1e-4. Up to here the Fresnel equations take n alone; what that leaves out is in

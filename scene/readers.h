@@ -12,13 +12,21 @@
 
 namespace iride {
 
+// A named material of the file: read when it is first asked for, since others may be made of it.
+struct NamedSource {
+    JsonValue const* value;
+    int index = -1;  // in the scene, once read
+    bool under_way = false;
+};
+
 // What the readers share while a file is read.
 struct SceneBuilder {
     ReadContext& context;
     Scene& scene;
     double length_unit_m = 1;
-    std::map<std::string, int> material_by_name;
+    std::map<std::string, NamedSource> named_materials;
     std::vector<std::unique_ptr<Light>> lights;
+    int material_depth = 0;  // of materials made of others
 };
 
 // ---- spectra (spectrum_reader.cpp)
@@ -44,8 +52,11 @@ struct MaterialEntry {
     std::unique_ptr<Material const> (*reader)(SceneBuilder&, Fields&);
 };
 std::span<MaterialEntry const> material_entries();
-// A material object; its index in the scene, or 0 after an error.
+// A material object; its index in the scene, where something stands even after an error.
 int read_material(SceneBuilder& builder, JsonValue const& value, std::string const& path, std::string const& name);
+// The same for a name of the file's materials, and for the name or object under a (required) key.
+int read_named_material(SceneBuilder& builder, std::string const& name);
+int read_material_under(SceneBuilder& builder, Fields& fields, std::string const& key);
 
 // ---- shapes (shape_reader.cpp)
 struct ShapeEntry {
@@ -73,6 +84,8 @@ void read_lights(SceneBuilder& builder, JsonValue const& value, std::string cons
 // Add a light with its description; its index.
 int add_light(SceneBuilder& builder, std::unique_ptr<Light> light, std::string const& type,
               SpectralFunction const& spectrum, double luminance);
+
+inline constexpr double largest_emission_exponent = 1e4;  // narrower than a degree: a lamp of another kind
 
 // The type of an object by one of these tables; null after a diagnostic.
 template <class Entry>

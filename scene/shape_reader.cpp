@@ -149,20 +149,6 @@ constexpr std::array<ShapeEntry, 7> table{{
     {"mesh", "triangles of a PLY or OBJ file", read_mesh_shape},
 }};
 
-int material_of(SceneBuilder& b, Fields& f) {
-    JsonValue const* const value = f.require("material");
-    if (!value) return 0;
-    if (value->as<JsonObject>()) return read_material(b, *value, f.path("material"), f.path("material"));
-    auto const name = f.text("material");
-    if (!name) return 0;
-    auto const found = b.material_by_name.find(*name);
-    if (found != b.material_by_name.end()) return found->second;
-    std::vector<std::string> names;
-    for (auto const& entry : b.material_by_name) names.push_back(entry.first);
-    f.error_at("material", fmt::format("unknown material '{}'{}", *name, suggestion(*name, names)));
-    return 0;
-}
-
 double surface_area(ShapeGeometry const& geometry) {
     struct Area {
         double operator()(Sphere const& s) const { return 4 * pi_double * square(static_cast<double>(s.radius)); }
@@ -184,7 +170,18 @@ double surface_area(ShapeGeometry const& geometry) {
 struct EmissionRead {
     SpectralFunction radiance;
     bool two_sided;
+    EmissionProfile profile;
 };
+
+EmissionProfile read_profile(SceneBuilder& b, Fields& e) {
+    JsonValue const* const value = e.find("profile");
+    if (!value) return {};
+    Fields f(b.context, *value, e.path("profile"));
+    double const exponent = f.number("exponent", between(0, largest_emission_exponent)).value_or(0);
+    double const cone = f.number("cone_deg", {.least = 0, .most = 90, .least_excluded = true}).value_or(90);
+    f.finish();
+    return {static_cast<float>(exponent), cone == 90 ? 0 : static_cast<float>(std::cos(radians(cone)))};
+}
 
 std::optional<EmissionRead> read_emission(SceneBuilder& b, Fields& f, bool in_object) {
     JsonValue const* const value = f.find("emission");
@@ -196,8 +193,9 @@ std::optional<EmissionRead> read_emission(SceneBuilder& b, Fields& f, bool in_ob
     Fields e(b.context, *value, f.path("emission"));
     auto const radiance = read_spectrum(b, e, "radiance", emission_kind);
     bool const two_sided = e.boolean("two_sided").value_or(false);
+    EmissionProfile const profile = read_profile(b, e);
     e.finish();
-    return radiance ? std::optional(EmissionRead{*radiance, two_sided}) : std::nullopt;
+    return radiance ? std::optional(EmissionRead{*radiance, two_sided, profile}) : std::nullopt;
 }
 
 void read_shape(SceneBuilder& b, JsonValue const& value, std::string const& path, bool in_object,
@@ -208,7 +206,7 @@ void read_shape(SceneBuilder& b, JsonValue const& value, std::string const& path
     Geometries geometries;
     entry->reader(b, f, geometries);
     Transform const transform = read_transform(b, f, "transform");
-    int const material = material_of(b, f);
+    int const material = read_material_under(b, f, "material");
     bool const flipped = f.boolean("flip").value_or(false);
     auto const emission = read_emission(b, f, in_object);
     for (ShapeGeometry& g : geometries) {
@@ -218,7 +216,7 @@ void read_shape(SceneBuilder& b, JsonValue const& value, std::string const& path
             f.error_at("emission", "this emitter has no area");
         } else if (emission) {
             double const luminance = luminance_of(emission->radiance);
-            Emitter emitter{Emission(emission->radiance, b.scene.grid), emission->two_sided};
+            Emitter emitter{Emission(emission->radiance, b.scene.grid), emission->two_sided, emission->profile};
             shape.light = add_light(b, make_area_light(shape, {std::move(emitter), luminance}), entry->name,
                                     emission->radiance, luminance);
         }

@@ -14,7 +14,8 @@ namespace {
 std::vector<test::NamedModel> const& models() {
     static std::vector<test::NamedModel> const all = [] {
         std::vector<test::NamedModel> collected;
-        for (auto const family : {test::diffuse_models, test::metal_models})
+        for (auto const family :
+             {test::diffuse_models, test::metal_models, test::plastic_models, test::heuristic_models})
             std::ranges::move(family(), std::back_inserter(collected));
         return collected;
     }();
@@ -40,7 +41,7 @@ TEST_CASE("sampled directions follow the stated density", "[law]") {
             test::DirectionHistogram histogram;
             Sampler sampler(SamplerKind::independent, 7, 1, static_cast<std::uint32_t>(angle));
             for (int i = 0; i < samples; ++i) {
-                if (auto const s = m.bsdf.sample(wo, numbers(sampler)))
+                if (auto const s = m.bsdf.sample(wo, numbers(sampler)); s && s->density)
                     histogram.add(s->wi);
                 else
                     histogram.add_nothing();
@@ -63,10 +64,9 @@ TEST_CASE("a sample's weight is f cos over its density", "[law]") {
             Sampler sampler(SamplerKind::independent, 3, 2, static_cast<std::uint32_t>(angle));
             for (int i = 0; i < 1000; ++i) {
                 auto const s = m.bsdf.sample(wo, numbers(sampler));
-                if (!s) continue;
+                if (!s || !s->density) continue;  // a Dirac lobe is not seen by evaluate()
                 auto const e = m.bsdf.evaluate(wo, s->wi);
                 INFO(m.name << " at " << angle);
-                REQUIRE(s->density);
                 CHECK(e.density[0] == Approx(s->density->value).epsilon(2e-3));
                 for (int lane = 0; lane < lane_count; ++lane)
                     CHECK(s->weight[lane] == Approx(e.value[lane] * s->wi.z() / e.density[0]).epsilon(2e-3));
@@ -76,7 +76,8 @@ TEST_CASE("a sample's weight is f cos over its density", "[law]") {
 
 // Fails for G1(wo) instead of G2, and for a reflectance by the cosine of wi against the surface, not the half vector.
 TEST_CASE("light and viewer may change places", "[law]") {
-    for (test::NamedModel const& m : models())
+    for (test::NamedModel const& m : models()) {
+        if (!m.reciprocal) continue;
         for (double a : {5., 40., 80.})
             for (double b : {10., 55., 85.}) {
                 Direction const w1 = at_angle(a), w2 = at_angle(b, 1.9);
@@ -84,11 +85,13 @@ TEST_CASE("light and viewer may change places", "[law]") {
                     CHECK(m.bsdf.evaluate(w1, w2).value[lane] ==
                           Approx(m.bsdf.evaluate(w2, w1).value[lane]).epsilon(1e-4));
             }
+    }
 }
 
 // Fails for F doubled.
 TEST_CASE("no surface gives back more than it gets", "[law]") {
-    for (test::NamedModel const& m : models())
+    for (test::NamedModel const& m : models()) {
+        if (!m.conserving) continue;
         for (double angle : {0., 30., 60., 85., 89.9}) {
             Direction const wo = at_angle(angle);
             Sampler sampler(SamplerKind::sobol, 5, 3, 0);
@@ -101,6 +104,7 @@ TEST_CASE("no surface gives back more than it gets", "[law]") {
             CHECK(largest(albedo).value <= 1.0001f);
             CHECK(!is_negative(albedo));
         }
+    }
 }
 
 // Single-scattering GGX with F = 1: directional albedo by independent quadrature of D G2 / (4 cos), to four digits.

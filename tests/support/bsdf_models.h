@@ -14,10 +14,13 @@ struct NamedModel {
     std::string name;
     Bsdf bsdf;
     int quadrature = 32;  // points per side of a histogram cell: a narrow lobe is a tenth of a cell wide
+    bool reciprocal = true, conserving = true;
 };
 
 std::vector<NamedModel> diffuse_models();
 std::vector<NamedModel> metal_models();
+std::vector<NamedModel> plastic_models();
+std::vector<NamedModel> heuristic_models();
 
 // first, first + step, ... : a parameter that differs in each lane.
 inline Lanes rising_lanes(float first, float step) {
