@@ -12,7 +12,6 @@ namespace iride {
 namespace {
 
 constexpr double step_nm = 2.5;
-constexpr double converged = 1e-8;  // CIE 1976 difference that is none
 
 VectorDouble lab_of(VectorDouble const& ratio) {
     Lab const lab = to_lab(to_xyz(ratio), {1, 1, 1});
@@ -37,7 +36,7 @@ double grey_argument(double value) { return (value - 0.5) / std::sqrt(value * (1
 SigmoidFitter::SigmoidFitter(SpectralFunction const& light, Observer const& observer) {
     auto const nm = [](int knot) { return visible_range.min_nm + step_nm * knot; };
     for (int i = 0; i < knots; ++i)
-        t_[static_cast<std::size_t>(i)] =
+        fine_.t[static_cast<std::size_t>(i)] =
             (2 * nm(i) - visible_range.min_nm - visible_range.max_nm) / visible_range.width();
     VectorDouble total = VectorDouble::Zero();
     double const offset = 0.5 / std::sqrt(3.0);  // two-point Gauss rule in every nanometre
@@ -51,11 +50,15 @@ SigmoidFitter::SigmoidFitter(SpectralFunction const& light, Observer const& obse
                 for (int j = first; j < first + 4; ++j)
                     if (j != i) cardinal *= (at - nm(j)) / (nm(i) - nm(j));
                 for (std::size_t c = 0; c < 3; ++c)
-                    weight_[c][static_cast<std::size_t>(i)] += cardinal * density[static_cast<Eigen::Index>(c)];
+                    fine_.weight[c][static_cast<std::size_t>(i)] += cardinal * density[static_cast<Eigen::Index>(c)];
             }
         }
     for (std::size_t c = 0; c < 3; ++c)
-        for (double& weight : weight_[c]) weight /= total[static_cast<Eigen::Index>(c)];
+        for (double& weight : fine_.weight[c]) weight /= total[static_cast<Eigen::Index>(c)];
+    std::ranges::transform(fine_.t, quick_.t.begin(), [](double t) { return static_cast<float>(t); });
+    for (std::size_t c = 0; c < 3; ++c)
+        std::ranges::transform(fine_.weight[c], quick_.weight[c].begin(),
+                               [](double w) { return static_cast<float>(w); });
 }
 
 struct SigmoidFitter::Evaluation {
@@ -64,32 +67,41 @@ struct SigmoidFitter::Evaluation {
     double steepest;          // per nm
 };
 
-SigmoidFitter::Evaluation SigmoidFitter::evaluate(VectorDouble const& p) const {
+template <class Real>
+SigmoidFitter::Evaluation SigmoidFitter::Quadrature<Real>::evaluate(VectorDouble const& coefficients) const {
     // Sums side by side, so that the compiler may use whole registers: S and S' times t^0, t^1, t^2.
-    constexpr std::size_t lanes = 8;
-    double sum[3][4][lanes] = {}, steepest[lanes] = {};
+    constexpr std::size_t lanes = 64 / sizeof(Real);
+    constexpr Real half{0.5};
+    Real const p0 = static_cast<Real>(coefficients[0]), p1 = static_cast<Real>(coefficients[1]),
+               p2 = static_cast<Real>(coefficients[2]);
+    Real sum[3][4][lanes] = {}, steepest[lanes] = {};
     for (std::size_t i = 0; i < padded; i += lanes)
         for (std::size_t l = 0; l < lanes; ++l) {
-            double const t = t_[i + l], x = (p[0] * t + p[1]) * t + p[2], inverse = 1 / std::sqrt(1 + x * x);
-            double const value = 0.5 + 0.5 * x * inverse, slope = 0.5 * inverse * inverse * inverse;
-            steepest[l] = std::max(steepest[l], slope * std::abs(2 * p[0] * t + p[1]));
+            Real const at = t[i + l], x = (p0 * at + p1) * at + p2, inverse = 1 / std::sqrt(1 + x * x);
+            Real const value = half + half * x * inverse, slope = half * inverse * inverse * inverse;
+            steepest[l] = std::max(steepest[l], slope * std::abs(2 * p0 * at + p1));
             for (std::size_t c = 0; c < 3; ++c) {
-                double const w = weight_[c][i + l], wd = w * slope;
+                Real const w = weight[c][i + l], wd = w * slope;
                 sum[c][0][l] += w * value;
-                sum[c][1][l] += wd * t * t;
-                sum[c][2][l] += wd * t;
+                sum[c][1][l] += wd * at * at;
+                sum[c][2][l] += wd * at;
                 sum[c][3][l] += wd;
             }
         }
     Evaluation result{VectorDouble::Zero(), MatrixDouble::Zero(),
-                      *std::max_element(steepest, steepest + lanes) * 2 / visible_range.width()};
+                      static_cast<double>(*std::max_element(steepest, steepest + lanes)) * 2 / visible_range.width()};
     for (Eigen::Index c = 0; c < 3; ++c)
         for (std::size_t l = 0; l < lanes; ++l) {
             auto const& s = sum[c];
-            result.ratio[c] += s[0][l];
-            result.derivative.row(c) += Eigen::RowVector3d(s[1][l], s[2][l], s[3][l]);
+            result.ratio[c] += static_cast<double>(s[0][l]);
+            result.derivative.row(c) += Eigen::Matrix<Real, 1, 3>(s[1][l], s[2][l], s[3][l]).template cast<double>();
         }
     return result;
+}
+
+SigmoidFitter::Evaluation SigmoidFitter::evaluate(VectorDouble const& coefficients, FitEffort const& effort) const {
+    constexpr double of_floats = 1e-3;  // CIE 1976 difference that floats tell from none
+    return effort.difference >= of_floats ? quick_.evaluate(coefficients) : fine_.evaluate(coefficients);
 }
 
 SigmoidFit SigmoidFitter::fit(VectorDouble const& wanted) const {
@@ -100,26 +112,27 @@ SigmoidFit SigmoidFitter::fit(VectorDouble const& wanted) const {
     constexpr double least = 1e-3;  // reflectance to start from: at 0 and 1 the sigmoid has no slope
     SigmoidFit const from_grey = fit(wanted, {0, 0, grey_argument(std::clamp(Y, least, 1 - least))});
     constexpr double dark = 0.1;
-    if (from_grey.difference <= converged || wanted.maxCoeff() > dark || !(wanted.minCoeff() > 0)) return from_grey;
+    if (from_grey.difference <= FitEffort{}.difference || wanted.maxCoeff() > dark || !(wanted.minCoeff() > 0))
+        return from_grey;
     // A dark saturated colour lies in the flat tail of the sigmoid: come from a brighter one.
     SigmoidFit const from_bright = fit(wanted, fit(2 * wanted).sigmoid);
     return from_bright.difference < from_grey.difference ? from_bright : from_grey;
 }
 
-SigmoidFit SigmoidFitter::fit(VectorDouble const& wanted, SigmoidShape const& start) const {
-    constexpr int most_rounds = 300;
+SigmoidFit SigmoidFitter::fit(VectorDouble const& wanted, SigmoidShape const& start, FitEffort const& effort) const {
     constexpr double most_damping = 1e12;  // no step downhill is left
     VectorDouble const target = lab_of(wanted);
     VectorDouble p(start.a, start.b, start.c);
-    Evaluation here = evaluate(p);
+    Evaluation here = evaluate(p, effort);
     VectorDouble residual = lab_of(here.ratio) - target;
     double damping = 1e-3;
-    for (int round = 0; round < most_rounds && residual.norm() > converged && damping < most_damping; ++round) {
+    for (int round = 0; round < effort.rounds && residual.norm() > effort.difference && damping < most_damping;
+         ++round) {
         MatrixDouble const jacobian = lab_derivative(here.ratio) * here.derivative;
         MatrixDouble normal = jacobian.transpose() * jacobian;
         normal.diagonal() *= 1 + damping;
         VectorDouble const next = p - normal.inverse() * (jacobian.transpose() * residual);
-        Evaluation const there = evaluate(next);
+        Evaluation const there = evaluate(next, effort);
         VectorDouble const rest = lab_of(there.ratio) - target;
         if (rest.norm() < residual.norm() && there.steepest < steepest_reflectance) {
             p = next, here = there, residual = rest;

@@ -22,6 +22,12 @@ struct SigmoidFit {
     double difference;    // CIE 1976, to the wanted colour
 };
 
+// When to stop: at this CIE 1976 difference, or after so many rounds.
+struct FitEffort {
+    double difference = 1e-8;  // that is none
+    int rounds = 300;
+};
+
 class SigmoidFitter {
   public:
     SigmoidFitter(SpectralFunction const& light, Observer const& observer);
@@ -30,7 +36,7 @@ class SigmoidFitter {
     // `start`: of a nearby colour, saves rounds; without it, the grey of the same luminance. Ten to twenty
     // microseconds.
     SigmoidFit fit(VectorDouble const& wanted) const;
-    SigmoidFit fit(VectorDouble const& wanted, SigmoidShape const& start) const;
+    SigmoidFit fit(VectorDouble const& wanted, SigmoidShape const& start, FitEffort const& effort = {}) const;
 
     // Of a colour beyond reach: the best of the fits from 81 colours around it, in half a millisecond. One fit may end
     // in a valley of its own, up to 12 farther; these are within .3 of the best that 380 starts find.
@@ -38,13 +44,20 @@ class SigmoidFitter {
 
   private:
     struct Evaluation;
-    Evaluation evaluate(VectorDouble const& coefficients) const;
-
     // Quadrature over 360 .. 830 nm: weights of light times observer for reflectances sampled every 2.5 nm and cubic
     // between (Lagrange, the two nearest samples on either side).
     static constexpr int knots = 189, padded = 192;
-    std::array<double, padded> t_{};                      // wavelength as SigmoidShape takes it
-    std::array<std::array<double, padded>, 3> weight_{};  // of X, Y, Z; each sums to 1
+    template <class Real>
+    struct Quadrature {
+        std::array<Real, padded> t{};                      // wavelength as SigmoidShape takes it
+        std::array<std::array<Real, padded>, 3> weight{};  // of X, Y, Z; each sums to 1
+
+        Evaluation evaluate(VectorDouble const& coefficients) const;
+    };
+    Evaluation evaluate(VectorDouble const& coefficients, FitEffort const& effort) const;
+
+    Quadrature<double> fine_;
+    Quadrature<float> quick_;  // the same: errs by 1e-4 in L*a*b*
 };
 
 }  // namespace iride

@@ -7,15 +7,22 @@
 
 namespace iride {
 
+// Of a pixel's width, what one look-up into a texture averages: its samples average the rest.
+constexpr float texture_share = 0.5f;
+
 PathStarter::PathStarter(Scene const& scene, RenderPlan const& plan, int width, int height, SamplerKind kind,
                          std::uint64_t seed)
     : camera_(scene.camera, width, height),
       wavelengths_(make_wavelength_sampler(scene, plan)),
       filter_(scene.film.filter),
       filter_radius_(scene.film.filter_radius),
+      cone_(camera_.pixel_cone()),
       width_(width),
       kind_(kind),
-      seed_(seed) {}
+      seed_(seed) {
+    cone_.width *= texture_share;
+    cone_.spread *= texture_share;
+}
 
 void PathStarter::start(int x, int y, std::uint32_t sample, CameraPath& path) const {
     path.sampler = Sampler(kind_, seed_, static_cast<std::uint32_t>(y * width_ + x), sample);
@@ -23,6 +30,7 @@ void PathStarter::start(int x, int y, std::uint32_t sample, CameraPath& path) co
     path.wavelengths = wavelengths_.sample(path.sampler.next());
     path.ray = camera_.ray(static_cast<float>(x) + 0.5f + place.x, static_cast<float>(y) + 0.5f + place.y,
                            path.sampler.next2());
+    path.cone = cone_;
     path.radiance = Radiance();
     path.complete = true;
 }

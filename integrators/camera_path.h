@@ -10,6 +10,7 @@ namespace iride {
 
 struct CameraPath {
     Ray ray;
+    RayCone cone;
     Wavelengths wavelengths;
     Sampler sampler{SamplerKind::independent, 0, 0, 0};
     Radiance radiance;
@@ -31,6 +32,7 @@ class PathStarter {
     WavelengthSampler wavelengths_;
     FilterKind filter_;
     float filter_radius_;  // pixels
+    RayCone cone_;
     int width_;
     SamplerKind kind_;
     std::uint64_t seed_;

@@ -15,7 +15,8 @@ namespace {
 constexpr std::array<IntegratorEntry, 3> table{{
     {"path", "path tracing: light sampling and scattering, unbiased", make_path},
     {"reference_path", "path tracing by scattering alone: slow, the oracle of the others", make_reference_path},
-    {"radiosity", "diffuse surfaces cut into patches, solved for every wavelength: no noise", radiosity::make_radiosity},
+    {"radiosity", "diffuse surfaces cut into patches, solved for every wavelength: no noise",
+     radiosity::make_radiosity},
 }};
 
 }  // namespace

@@ -72,6 +72,7 @@ template <bool Media>
 struct Walk {
     PathState state;
     Arrival arrival;
+    RayCone cone;  // 0 wide unless the plan carries it
     VertexNumbers numbers;
     bool has_hit, goes_on;
     Hit hit;
@@ -89,7 +90,8 @@ class Path final : public Integrator {
         : max_bounces_(plan.max_bounces.value_or(longest_path)),
           light_sampling_(plan.light_sampling),
           environment_(plan.environment),
-          camera_in_(plan.camera_in) {}
+          camera_in_(plan.camera_in),
+          ray_cones_(plan.ray_cones) {}
 
     void follow(Scene const& scene, std::span<CameraPath> paths, RayStatistics& statistics) const override {
         Walks walks;
@@ -97,6 +99,8 @@ class Path final : public Integrator {
         if constexpr (Media)
             for (std::size_t i = 0; i < paths.size(); ++i)
                 walks[i].in = camera_in_ ? *camera_in_ : surroundings_at(scene, paths[i].ray.origin);
+        if (ray_cones_)
+            for (std::size_t i = 0; i < paths.size(); ++i) walks[i].cone = paths[i].cone;
         for (int bounce = 0; !alive.none(); ++bounce) {
             alive.for_each([&](std::size_t i) { walks[i].numbers = numbers_of_vertex(paths[i].sampler, bounce); });
             find_hits(scene, paths, walks, alive, bounce, statistics);
@@ -122,7 +126,7 @@ class Path final : public Integrator {
                           int bounce, RayStatistics& statistics) {
         std::array<ClosestQuery, batch_size> queries;
         std::size_t count = 0;
-        alive.for_each([&](std::size_t i) { queries[count++] = {&paths[i].ray, &walks[i].hit}; });
+        alive.for_each([&](std::size_t i) { queries[count++] = {&paths[i].ray, &walks[i].hit, walks[i].cone}; });
         // Neighbours leave the camera together; after a scattering each goes its own way.
         auto const coherence = bounce == 0 ? Accelerator::Coherence::close : Accelerator::Coherence::none;
         scene.accelerator->closest(std::span(queries).first(count), coherence, statistics);
@@ -269,7 +273,7 @@ class Path final : public Integrator {
     }
 
     // Choose where the path goes on; false if it ends here.
-    static bool scatter(Scene const& scene, CameraPath& path, Walk& walk) {
+    bool scatter(Scene const& scene, CameraPath& path, Walk& walk) const {
         Interaction const& here = *walk.here;
         auto const sample = here.bsdf.sample(here.wo, {walk.numbers.choices.y, walk.numbers.direction});
         if (!sample) return false;
@@ -282,6 +286,8 @@ class Path final : public Integrator {
         walk.state.weight *= sample->weight;
         walk.arrival.density = sample->density;
         walk.arrival.from = walk.hit.point.position;
+        if (ray_cones_)
+            walk.cone = walk.cone.scattered(walk.hit.distance, sample->density ? &*sample->density : nullptr);
         path.ray = spawn_ray(walk.hit.point, wi);
         if constexpr (Media) walk.in = behind(scene, walk.hit, here, sample->wi, walk.in);
         return true;
@@ -290,6 +296,7 @@ class Path final : public Integrator {
     int max_bounces_;
     bool light_sampling_, environment_;
     std::optional<Surroundings> camera_in_;  // absent: to be found for each path
+    bool ray_cones_;
 };
 
 }  // namespace

@@ -51,13 +51,41 @@ std::optional<Surroundings> surroundings_of_camera(Scene const& scene) {
     return first;
 }
 
+bool decided(RenderPlan& plan, std::string name, bool used, std::string reason) {
+    plan.decisions.push_back({std::move(name), used, std::move(reason)});
+    return used;
+}
+
+// What varies over surfaces; each is asked of those shapes alone whose material has it.
+void decide_surfaces(Scene const& scene, RenderPlan& plan) {
+    std::string const textured = names_of(scene, [](NamedMaterial const& m) { return m.material->traits.textured; });
+    std::string const relief = names_of(scene, [](NamedMaterial const& m) { return m.relief != nullptr; });
+    std::string const holes = names_of(scene, [](NamedMaterial const& m) { return m.alpha.has_value(); });
+    std::string const tangents = names_of(scene, [](NamedMaterial const& m) { return m.material->traits.anisotropic; });
+    bool const textures = decided(plan, "textures", !textured.empty(),
+                                  textured.empty() ? "no material varies over its surface" : "in: " + textured);
+    bool const turned =
+        decided(plan, "bumps", !relief.empty(),
+                relief.empty() ? "no bump or normal map turns a normal" : "normals are turned by: " + relief);
+    bool const cut = decided(plan, "alpha", !holes.empty(),
+                             holes.empty() ? "no surface has holes: hits are not filtered" : "holes in: " + holes);
+    bool const uv = textures || turned || cut;
+    decided(plan, "uv and tangents", uv || !tangents.empty(),
+            uv                 ? "on the shapes of those materials"
+            : tangents.empty() ? "nobody looks at them"
+                               : "tangents for: " + tangents);
+    plan.ray_cones = decided(plan, "ray cones", textures || turned,
+                             textures || turned ? "textures are averaged over half a pixel's cone, wider after rough "
+                                                  "scattering; reference_path looks at points"
+                                                : "no texture to average");
+}
+
 }  // namespace
 
 RenderPlan make_plan(Scene const& scene) {
     RenderPlan plan;
     auto const decide = [&](std::string name, bool used, std::string reason) {
-        plan.decisions.push_back({std::move(name), used, std::move(reason)});
-        return used;
+        return decided(plan, std::move(name), used, std::move(reason));
     };
 
     std::string const dispersive =
@@ -101,6 +129,7 @@ RenderPlan make_plan(Scene const& scene) {
         return m && m->smooth && !m->mesh->normal.empty();
     });
     decide("smooth normals", smooth, smooth ? "a mesh has vertex normals" : "no mesh has vertex normals");
+    decide_surfaces(scene, plan);
     decide("instances", !scene.instances.empty(), fmt::format("{} in the scene", scene.instances.size()));
 
     plan.wavelengths = seen_range(scene);

@@ -17,6 +17,7 @@ struct RenderPlan {
     bool environment = false;     // paths that leave the scene may bring radiance
     WavelengthRange wavelengths;  // where lamps and (observer or bands) overlap: what is sampled
     bool bands = false;
+    bool ray_cones = false;  // a texture is averaged over what a path stands for
     std::optional<int> max_bounces;
     std::optional<Surroundings> camera_in;  // absent: not the same for all camera rays
 

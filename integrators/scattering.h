@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "integrators/integrator.h"
+#include "integrators/shading_normal.h"
 
 namespace iride {
 
@@ -57,7 +58,10 @@ struct Interaction {
             cosine = -cosine;
         }
         // Seen from behind the shading normal but before the surface: as good as grazing.
-        if ((to_viewer.dot(normal) > 0) != (cosine > 0)) normal = geometric_normal;
+        if (material.traits.two_sided)
+            normal = bent_to_viewer(normal, geometric_normal, to_viewer);
+        else if ((to_viewer.dot(normal) > 0) != (cosine > 0))
+            normal = geometric_normal;
         frame = Frame::around(normal);
         wo = frame.to_local(to_viewer);
     }

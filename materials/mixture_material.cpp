@@ -9,7 +9,10 @@ namespace {
 
 MaterialTraits either(MaterialTraits const& a, MaterialTraits const& b) {
     check(a.two_sided && b.two_sided, "what is made of others turns with the viewer");
-    return {.dispersive = a.dispersive || b.dispersive, .has_density = a.has_density || b.has_density};
+    return {.dispersive = a.dispersive || b.dispersive,
+            .has_density = a.has_density || b.has_density,
+            .textured = a.textured || b.textured,
+            .anisotropic = a.anisotropic || b.anisotropic};
 }
 
 MaterialTraits traits_of(std::vector<MixtureMaterial::Part> const& parts) {

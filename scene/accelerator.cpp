@@ -8,7 +8,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include "scene/frustum_intersection.h"
+#include "scene/cut_out.h"
+#include "scene/parametrisation.h"
 
 namespace iride {
 
@@ -96,12 +97,25 @@ Ray lane_of(RTCRayN* rays, unsigned n, unsigned i) {
             RTCRayN_tfar(rays, n, i)};
 }
 
+// Embree asks this of each hit on a shape with alpha, in the shape's coordinates.
+void filter_by_alpha(RTCFilterFunctionNArguments const* a) {
+    Shape const& shape = *static_cast<Shape const*>(a->geometryUserPtr);
+    for (unsigned i = 0; i < a->N; ++i) {
+        if (!a->valid[i]) continue;
+        HitCoordinates const at{RTCHitN_u(a->hit, a->N, i), RTCHitN_v(a->hit, a->N, i),
+                                RTCHitN_primID(a->hit, a->N, i)};
+        Ray const ray = lane_of(a->ray, a->N, i);
+        if (!stops(shape, ray, ray.t_max, at)) a->valid[i] = 0;
+    }
+}
+
 void frustum_intersect(RTCIntersectFunctionNArguments const* a) {
-    auto const& f = std::get<Frustum>(static_cast<Shape const*>(a->geometryUserPtr)->geometry);
+    Shape const& shape = *static_cast<Shape const*>(a->geometryUserPtr);
     RTCRayN* const rays = RTCRayHitN_RayN(a->rayhit, a->N);
     RTCHitN* const hits = RTCRayHitN_HitN(a->rayhit, a->N);
     for (unsigned i = 0; i < a->N; ++i) {
-        std::optional<float> const t = a->valid[i] ? intersect(f, lane_of(rays, a->N, i)) : std::nullopt;
+        std::optional<float> const t =
+            a->valid[i] ? first_stop(shape, std::get<Frustum>(shape.geometry), lane_of(rays, a->N, i)) : std::nullopt;
         if (!t) continue;
         RTCRayN_tfar(rays, a->N, i) = *t;
         RTCHitN_geomID(hits, a->N, i) = a->geomID;
@@ -111,9 +125,10 @@ void frustum_intersect(RTCIntersectFunctionNArguments const* a) {
 }
 
 void frustum_occluded(RTCOccludedFunctionNArguments const* a) {
-    auto const& f = std::get<Frustum>(static_cast<Shape const*>(a->geometryUserPtr)->geometry);
+    Shape const& shape = *static_cast<Shape const*>(a->geometryUserPtr);
     for (unsigned i = 0; i < a->N; ++i)
-        if (a->valid[i] && intersect(f, lane_of(a->ray, a->N, i))) RTCRayN_tfar(a->ray, a->N, i) = -infinity;
+        if (a->valid[i] && first_stop(shape, std::get<Frustum>(shape.geometry), lane_of(a->ray, a->N, i)))
+            RTCRayN_tfar(a->ray, a->N, i) = -infinity;
 }
 
 RTCGeometry make_geometry(RTCDevice device, Frustum const&) {
@@ -123,42 +138,6 @@ RTCGeometry make_geometry(RTCDevice device, Frustum const&) {
     rtcSetGeometryIntersectFunction(g, frustum_intersect);
     rtcSetGeometryOccludedFunction(g, frustum_occluded);
     return g;
-}
-
-// Position, normals and uv of a hit, in the coordinates of the shape. `on_ray` is the point along the ray: shapes with
-// a closed form pull it onto the surface, which leaves an error of a few units in the last place.
-SurfacePoint surface_point(Sphere const& s, Vector const& on_ray, RTCHit const&) {
-    Direction const n = (on_ray - s.centre).normalized();
-    return {s.centre + s.radius * n, n, n};
-}
-SurfacePoint surface_point(Quad const& q, Vector const&, RTCHit const& hit) {
-    // Embree's quad is the triangles (0 1 3), parametrised by (u, v), and (2 3 1), by (1 - u, 1 - v).
-    auto const& c = q.corner;
-    float const u = hit.u, v = hit.v;
-    Vector const p = u + v <= 1 ? Vector(c[0] + u * (c[1] - c[0]) + v * (c[3] - c[0]))
-                                : Vector(c[2] + (1 - u) * (c[3] - c[2]) + (1 - v) * (c[1] - c[2]));
-    return {p, q.normal, q.normal, {u, v}};
-}
-SurfacePoint surface_point(Disc const& d, Vector const& on_ray, RTCHit const&) {
-    return {on_ray - d.normal * d.normal.dot(on_ray - d.centre), d.normal, d.normal};
-}
-SurfacePoint surface_point(Frustum const& f, Vector const& on_ray, RTCHit const&) {
-    auto const [position, normal] = project(f, on_ray);
-    return {position, normal, normal};
-}
-SurfacePoint surface_point(MeshShape const& m, Vector const&, RTCHit const& hit) {
-    auto const& t = m.mesh->triangle[hit.primID];
-    Vector const &a = m.mesh->position[t[0]], &b = m.mesh->position[t[1]], &c = m.mesh->position[t[2]];
-    float const u = hit.u, v = hit.v, w = 1 - u - v;
-    Direction const n = (b - a).cross(c - a).normalized();
-    SurfacePoint point{w * a + u * b + v * c, n, n};
-    if (m.smooth && !m.mesh->normal.empty()) {
-        auto const& N = m.mesh->normal;
-        point.normal = (w * N[t[0]] + u * N[t[1]] + v * N[t[2]]).normalized();
-        if (point.normal.dot(n) < 0) point.normal = -point.normal;  // the winding decides which side is the front
-    }
-    if (!m.mesh->uv.empty()) point.uv = w * m.mesh->uv[t[0]] + u * m.mesh->uv[t[1]] + v * m.mesh->uv[t[2]];
-    return point;
 }
 
 void flip(SurfacePoint& p) {
@@ -251,29 +230,46 @@ struct Accelerator::Implementation {
             RTCGeometry const g =
                 std::visit([&](auto const& geometry) { return make_geometry(device, geometry); }, shape.geometry);
             rtcSetGeometryUserData(g, const_cast<Shape*>(&shape));
+            if (shape.alpha && !std::holds_alternative<Frustum>(shape.geometry)) {
+                rtcSetGeometryIntersectFilterFunction(g, filter_by_alpha);
+                rtcSetGeometryOccludedFilterFunction(g, filter_by_alpha);
+            }
             attach(s, g);
         }
     }
 
-    // What Embree found at `distance` along a ray, as a point of a surface.
-    void describe(Ray const& ray, float distance, RTCHit const& embree_hit, Hit& hit) const {
+    // What Embree found at `distance` along the ray of a query, as a point of a surface.
+    void describe(ClosestQuery const& query, float distance, RTCHit const& embree_hit) const {
+        Ray const& ray = *query.ray;
+        Hit& hit = *query.hit;
+        HitCoordinates const at{embree_hit.u, embree_hit.v, embree_hit.primID};
         hit.distance = distance;
-        hit.primitive = embree_hit.primID;
+        hit.primitive = at.primitive;
         bool const in_instance = embree_hit.instID[0] != RTC_INVALID_GEOMETRY_ID;
         PlacedObject const* const placed = in_instance ? &instances[embree_hit.instID[0] - first_instance] : nullptr;
         hit.shape = placed ? &placed->object->shapes[embree_hit.geomID] : &(*shapes)[embree_hit.geomID];
         Vector on_ray = ray.origin + hit.distance * ray.direction;
         if (placed) on_ray = placed->to_object * on_ray;
-        hit.point =
-            std::visit([&](auto const& g) { return surface_point(g, on_ray, embree_hit); }, hit.shape->geometry);
+        std::visit([&](auto const& g) { locate(g, on_ray, at, hit.point); }, hit.shape->geometry);
+        if (std::holds_alternative<Quad>(hit.shape->geometry)) hit.primitive = at.u + at.v <= 1 ? 0 : 1;
+        if (hit.shape->parametrised) parametrise(hit.shape->geometry, at, hit.point);
         if (hit.shape->flipped) flip(hit.point);
-        if (placed) {
-            // Normals are covectors: they go by the inverse transpose.
-            auto const normal_map = placed->to_object.linear().transpose();
-            hit.point.position = placed->to_world * hit.point.position;
-            hit.point.geometric_normal = (normal_map * hit.point.geometric_normal).normalized();
-            hit.point.normal = (normal_map * hit.point.normal).normalized();
-        }
+        if (placed) place(*placed, hit);
+        if (!hit.shape->parametrised) return;
+        set_tangent_and_footprint(hit.point, ray.direction, query.cone.width_at(distance));
+        if (hit.shape->relief) turn_normal(hit.point, hit.shape->relief->normal_at(hit.point));
+    }
+
+    static void place(PlacedObject const& placed, Hit& hit) {
+        // Normals are covectors: they go by the inverse transpose.
+        auto const normal_map = placed.to_object.linear().transpose();
+        SurfacePoint& point = hit.point;
+        point.position = placed.to_world * point.position;
+        point.geometric_normal = (normal_map * point.geometric_normal).normalized();
+        point.normal = (normal_map * point.normal).normalized();
+        if (!hit.shape->parametrised) return;
+        point.dp_du = placed.to_world.linear() * point.dp_du;
+        point.dp_dv = placed.to_world.linear() * point.dp_dv;
     }
 
     void closest_one(ClosestQuery& query, RayStatistics& statistics) const {
@@ -286,7 +282,7 @@ struct Accelerator::Implementation {
             rtcIntersect1(scene, &context, &rh);
         }
         query.found = rh.hit.geomID != RTC_INVALID_GEOMETRY_ID;
-        if (query.found) describe(*query.ray, rh.ray.tfar, rh.hit, *query.hit);
+        if (query.found) describe(query, rh.ray.tfar, rh.hit);
     }
 
     void closest_packet(std::span<ClosestQuery> queries, RayStatistics& statistics) const {
@@ -305,8 +301,7 @@ struct Accelerator::Implementation {
         for (std::size_t i = 0; i < queries.size(); ++i) {
             queries[i].found = rh.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
             if (queries[i].found)
-                describe(*queries[i].ray, rh.ray.tfar[i],
-                         rtcGetHitFromHitN(hits, packet_size, static_cast<unsigned>(i)), *queries[i].hit);
+                describe(queries[i], rh.ray.tfar[i], rtcGetHitFromHitN(hits, packet_size, static_cast<unsigned>(i)));
         }
     }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "materials/material.h"
+#include "scene/ray_cone.h"
 #include "scene/shape.h"
 
 namespace iride {
@@ -28,13 +29,14 @@ struct InstancePlacement {
 struct Hit {
     SurfacePoint point;
     Shape const* shape;
-    std::uint32_t primitive;  // triangle number in a mesh
+    std::uint32_t primitive;  // triangle number in a mesh, or half of a quad: (0 1 3), (2 3 1)
     float distance;           // metres along the ray
 };
 
 struct ClosestQuery {
     Ray const* ray;
     Hit* hit;
+    RayCone cone = {};
     bool found = false;
 };
 struct ShadowQuery {

@@ -201,18 +201,12 @@ class TrianglesLight final : public AreaLight {
         return towards(from, point, n, wavelengths, triangle_density(t, from, point, n) * choice.probability);
     }
     PerSteradian density(Vector const& from, SurfacePoint const& on, std::uint32_t primitive) const override {
-        std::size_t const i = triangles_.size() == 1 ? 0 : primitive_of(on, primitive);
+        std::size_t const i = triangles_.size() == 1 ? 0 : primitive;
         return triangle_density(triangles_[i], from, on.position, on.geometric_normal) *
                by_area_.probability(static_cast<int>(i));
     }
 
-    // A quad is one primitive of two triangles, told apart by its uv.
-    void set_is_quad() { is_quad_ = true; }
-
   private:
-    std::size_t primitive_of(SurfacePoint const& on, std::uint32_t primitive) const {
-        return is_quad_ ? (on.uv.x() + on.uv.y() <= 1 ? 0 : 1) : primitive;
-    }
     static double area(Triangle const& t) { return 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm(); }
     static float solid_angle(Triangle const& t, Vector const& from) {
         return triangle_solid_angle((t[0] - from).normalized(), (t[1] - from).normalized(), (t[2] - from).normalized());
@@ -226,7 +220,6 @@ class TrianglesLight final : public AreaLight {
 
     std::vector<Triangle> triangles_;
     DiscreteDistribution by_area_;
-    bool is_quad_ = false;
 };
 
 // Discs and frusta: uniform over the area.
@@ -287,10 +280,8 @@ std::unique_ptr<Light> make(Sphere const& s, EmitterStrength e, bool flipped) {
 std::unique_ptr<Light> make(Quad const& q, EmitterStrength e, bool flipped) {
     if (q.is_rectangle()) return std::make_unique<RectangleLight>(q, std::move(e), flipped);
     auto const& c = q.corner;
-    auto light = std::make_unique<TrianglesLight>(
+    return std::make_unique<TrianglesLight>(
         std::vector<TrianglesLight::Triangle>{{c[0], c[1], c[3]}, {c[2], c[3], c[1]}}, std::move(e), flipped);
-    light->set_is_quad();
-    return light;
 }
 std::unique_ptr<Light> make(Disc const& d, EmitterStrength e, bool flipped) {
     return std::make_unique<DiscLight>(d, std::move(e), flipped);

@@ -22,6 +22,12 @@ Camera::Camera(CameraSettings const& s, int width, int height)
     up_ = (up * half_height).cast<float>();
 }
 
+RayCone Camera::pixel_cone() const {
+    float const height = up_.norm() * scale_y_;  // of a pixel at distance 1, or of the window
+    if (projection_ == CameraSettings::Projection::orthographic) return {.width = height};
+    return {.spread = height};
+}
+
 Ray Camera::ray(float x, float y, Sample2 lens) const {
     Vector const offset = right_ * (x * scale_x_ - 1) + up_ * (1 - y * scale_y_);
     if (projection_ == CameraSettings::Projection::orthographic) return {eye_ + offset, forward_};

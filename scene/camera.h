@@ -5,6 +5,7 @@
 
 #include "base/sampler.h"
 #include "base/vector.h"
+#include "scene/ray_cone.h"
 
 namespace iride {
 
@@ -23,6 +24,9 @@ class Camera {
 
     // The ray through picture point (x, y), from lens point `lens` of the unit square (unused by a pinhole).
     Ray ray(float x, float y, Sample2 lens) const;
+
+    // What a pixel in the middle of the picture sees; the lens is left out.
+    RayCone pixel_cone() const;
 
   private:
     CameraSettings::Projection projection_;

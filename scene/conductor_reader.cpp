@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include "materials/conductor_material.h"
+#include "materials/roughness_mapped_conductor.h"
 #include "scene/material_readers.h"
+#include "scene/texture_readers.h"
 
 namespace iride {
 
@@ -51,10 +53,20 @@ MaterialPointer read_coated_conductor(SceneBuilder& b, Fields& f, std::optional<
     return material;
 }
 
+MaterialPointer read_roughness_mapped(SceneBuilder& b, Fields& f, std::optional<ComplexIndex> const& ior) {
+    auto const roughness = read_scalar_map(b, f, "roughness", {"roughness", between(1e-3, 1)});
+    if (f.find("coating")) f.error_at("coating", "a coated metal has one roughness, a number: no map");
+    bool const multiple_scattering = f.boolean("multiple_scattering").value_or(true);
+    if (!ior || !roughness) return nullptr;
+    return std::make_unique<RoughnessMappedConductor>(*ior, *roughness, multiple_scattering, b.scene.grid);
+}
+
 }  // namespace
 
 MaterialPointer read_conductor(SceneBuilder& b, Fields& f) {
     auto const ior = read_complex_index(b, f, "ior");
+    if (JsonValue const* const value = f.find("roughness"); value && value->as<JsonObject>())
+        return read_roughness_mapped(b, f, ior);
     double const roughness = f.number("roughness", between(0, 1)).value_or(0);
     if (roughness > 0 && roughness < 1e-3) f.error_at("roughness", "allowed: 0 (a mirror) or 0.001 .. 1 (GGX alpha)");
     if (f.find("coating")) return read_coated_conductor(b, f, ior, static_cast<float>(roughness));

@@ -140,6 +140,11 @@ void Fields::finish() {
             context_.error(v, path(key), "unknown key" + suggestion(key, known_));
 }
 
+bool has_key(JsonValue const& value, std::string const& key) {
+    JsonObject const* const object = value.as<JsonObject>();
+    return object && std::ranges::any_of(*object, [&](auto const& entry) { return entry.first == key; });
+}
+
 std::optional<std::vector<double>> read_numbers(ReadContext& context, JsonValue const& value, std::string const& path,
                                                 std::size_t count) {
     JsonArray const* const array = value.as<JsonArray>();

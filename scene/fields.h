@@ -90,6 +90,9 @@ class Fields {
     std::vector<std::string> known_;
 };
 
+// Whether a value is an object that has this key.
+bool has_key(JsonValue const& value, std::string const& key);
+
 // Numbers of a JSON array of exactly `count` finite numbers; reports otherwise.
 std::optional<std::vector<double>> read_numbers(ReadContext& context, JsonValue const& value, std::string const& path,
                                                 std::size_t count);

@@ -181,6 +181,16 @@ void read_everything(SceneBuilder& b, JsonValue const& root) {
     top.finish();
 }
 
+// What each shape's material asks of the intersector.
+void ask_intersector(Scene& scene, std::vector<Shape>& shapes) {
+    for (Shape& shape : shapes) {
+        NamedMaterial const& m = scene.materials[static_cast<std::size_t>(shape.material)];
+        shape.parametrised = m.looks_at_uv() || m.material->traits.anisotropic;
+        shape.relief = m.relief.get();
+        shape.alpha = m.alpha ? &*m.alpha : nullptr;
+    }
+}
+
 std::filesystem::path scene_folder() { return data_folder() / "scenes"; }
 
 }  // namespace
@@ -195,6 +205,8 @@ std::unique_ptr<Scene> load_scene(std::filesystem::path const& path) {
     if (!context.diagnostics.empty()) throw InputError(std::move(context.diagnostics));
     for (Remark const& remark : context.remarks) scene->remarks.push_back(remark.text());
     scene->hash = hash_files(context.files_read);
+    ask_intersector(*scene, scene->shapes);
+    for (ObjectGeometry& object : scene->objects) ask_intersector(*scene, object.shapes);
     scene->accelerator = std::make_unique<Accelerator>(scene->shapes, scene->objects, scene->instances);
     if (auto wrong = check_nesting(*scene, path.string(), scene->remarks); !wrong.empty())
         throw InputError(std::move(wrong));

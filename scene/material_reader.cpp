@@ -6,6 +6,7 @@
 
 #include "materials/diffuse_material.h"
 #include "scene/material_readers.h"
+#include "scene/texture_readers.h"
 
 namespace iride {
 
@@ -51,8 +52,12 @@ int read_material(SceneBuilder& b, JsonValue const& value, std::string const& pa
     MaterialEntry const* const entry = find_entry(fields, material_entries());
     if (!entry) return unknown_material(b);
     MaterialPointer material = entry->reader(b, fields);
+    SurfaceDetail detail = read_surface_detail(b, fields);
+    if (detail.alpha && material && !material->traits.two_sided)
+        fields.error_at("alpha", "a transparent body has no holes: a ray would be inside without having entered");
     fields.finish();
-    return add_material(b, {name, entry->name, std::move(material), path, value.line, value.column});
+    return add_material(b, {name, entry->name, std::move(material), path, value.line, value.column,
+                            std::move(detail.relief), std::move(detail.alpha)});
 }
 
 int read_named_material(SceneBuilder& b, std::string const& name) {
@@ -88,7 +93,11 @@ int read_material_under(SceneBuilder& b, Fields& f, std::string const& key) {
         }
     }
     --b.material_depth;
-    return index >= 0 ? index : unknown_material(b);
+    if (index < 0) return unknown_material(b);
+    NamedMaterial const& part = b.scene.materials[static_cast<std::size_t>(index)];
+    if (part.relief || part.alpha)
+        f.error_at(key, "'bump', 'normal_map' and 'alpha' of a part have no effect: put them on what is made of it");
+    return index;
 }
 
 }  // namespace iride

@@ -8,6 +8,7 @@
 
 #include "scene/fields.h"
 #include "scene/scene.h"
+#include "scene/texture_cache.h"
 #include "spectral/catalogue.h"
 
 namespace iride {
@@ -27,6 +28,7 @@ struct SceneBuilder {
     std::map<std::string, NamedSource> named_materials;
     std::vector<std::unique_ptr<Light>> lights;
     int material_depth = 0;  // of materials made of others
+    TextureCache textures{};
 };
 
 // ---- spectra (spectrum_reader.cpp)
@@ -41,6 +43,9 @@ extern SpectrumKind const reflectance_kind, emission_kind, transmittance_kind, a
 // The spectrum under `key` (required), checked over the render range.
 std::optional<SpectralFunction> read_spectrum(SceneBuilder& builder, Fields& fields, std::string const& key,
                                               SpectrumKind const& kind);
+// The same of a value that stands anywhere, at `path`.
+std::optional<SpectralFunction> read_spectrum_value(SceneBuilder& builder, JsonValue const& value,
+                                                    std::string const& path, SpectrumKind const& kind);
 std::optional<ComplexIndex> read_complex_index(SceneBuilder& builder, Fields& fields, std::string const& key);
 double luminance_of(SpectralFunction const& radiance);
 WavelengthRange nonzero_range(SpectralFunction const& emission, WavelengthRange const& within);

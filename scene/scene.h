@@ -44,6 +44,10 @@ struct NamedMaterial {
     std::unique_ptr<Material const> material;
     std::string key_path{};  // where the scene file has it
     int line = 0, column = 0;
+    std::shared_ptr<Relief const> relief{};  // null: none
+    std::optional<ScalarMap> alpha{};        // absent: no holes
+
+    bool looks_at_uv() const { return material->traits.textured || relief || alpha; }
 };
 
 // What the plan wants to know of a light's spectrum.

@@ -6,6 +6,7 @@
 #include <memory>
 #include <variant>
 
+#include "materials/relief.h"
 #include "scene/mesh.h"
 
 namespace iride {
@@ -52,6 +53,11 @@ struct Shape {
     int material = 0;      // index into Scene::materials
     int light = -1;        // index into Scene::lights, or -1
     bool flipped = false;  // front and back exchanged
+
+    // What its material asks of the intersector; owned by the scene.
+    bool parametrised = false;         // uv, derivatives and tangent
+    Relief const* relief = nullptr;    // turns the shading normal
+    ScalarMap const* alpha = nullptr;  // the share of rays that meet the surface, the others pass
 };
 
 }  // namespace iride

@@ -61,8 +61,8 @@ void read_box(SceneBuilder& b, Fields& f, Geometries& out) {
         return metres(
             b, VectorDouble(i & 1 ? high->x() : low->x(), i & 2 ? high->y() : low->y(), i & 4 ? high->z() : low->z()));
     };
-    constexpr unsigned faces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
-                                      {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+    constexpr unsigned faces[6][4] = {{0, 4, 6, 2}, {5, 1, 3, 7}, {0, 1, 5, 4},
+                                      {6, 7, 3, 2}, {1, 0, 2, 3}, {4, 5, 7, 6}};
     for (auto const& face : faces)
         out.push_back(Quad::through({corner(face[0]), corner(face[1]), corner(face[2]), corner(face[3])}));
 }
@@ -88,6 +88,19 @@ void read_cone(SceneBuilder& b, Fields& f, Geometries& out) {
     double const top = f.number("top_radius", at_least(0)).value_or(0);
     if (radius == 0 && top == 0) f.error("'radius' and 'top_radius' are both 0: the cone has no area");
     read_frustum(b, f, radius, top, out);
+}
+
+void read_inline_uv(SceneBuilder& b, Fields& f, Mesh& mesh) {
+    JsonValue const& value = *f.find("uv");
+    JsonArray const* const array = value.as<JsonArray>();
+    if (!array || array->size() != mesh.position.size())
+        return f.error_at("uv", fmt::format("found {}, but a pair for each of the {} vertices is wanted",
+                                            value.described(), mesh.position.size()));
+    for (std::size_t i = 0; i < array->size(); ++i) {
+        auto const pair = read_numbers(b.context, (*array)[i], fmt::format("{}[{}]", f.path("uv"), i), 2);
+        if (!pair) return;
+        mesh.uv.emplace_back(static_cast<float>((*pair)[0]), static_cast<float>((*pair)[1]));
+    }
 }
 
 std::optional<Mesh> inline_mesh(SceneBuilder& b, Fields& f) {
@@ -118,6 +131,7 @@ std::optional<Mesh> inline_mesh(SceneBuilder& b, Fields& f) {
         mesh.triangle.push_back({static_cast<std::uint32_t>(t->x()), static_cast<std::uint32_t>(t->y()),
                                  static_cast<std::uint32_t>(t->z())});
     }
+    if (f.find("uv")) read_inline_uv(b, f, mesh);
     return mesh;
 }
 
@@ -198,6 +212,22 @@ std::optional<EmissionRead> read_emission(SceneBuilder& b, Fields& f, bool in_ob
     return radiance ? std::optional(EmissionRead{*radiance, two_sided, profile}) : std::nullopt;
 }
 
+// The material of that number, if any was read.
+NamedMaterial const* material_at(SceneBuilder const& b, int index) {
+    auto const i = static_cast<std::size_t>(index);
+    return i < b.scene.materials.size() ? &b.scene.materials[i] : nullptr;
+}
+
+void check_uv(SceneBuilder& b, Fields& f, int material, std::vector<ShapeGeometry> const& geometries) {
+    NamedMaterial const* const m = material_at(b, material);
+    if (!m || !m->looks_at_uv()) return;
+    for (ShapeGeometry const& g : geometries) {
+        auto const* const shape = std::get_if<MeshShape>(&g);
+        if (shape && shape->mesh->uv.empty())
+            f.error_at("material", fmt::format("'{}' has a texture, but this mesh has no uv to place it by", m->name));
+    }
+}
+
 void read_shape(SceneBuilder& b, JsonValue const& value, std::string const& path, bool in_object,
                 std::vector<Shape>& shapes) {
     Fields f(b.context, value, path);
@@ -209,6 +239,9 @@ void read_shape(SceneBuilder& b, JsonValue const& value, std::string const& path
     int const material = read_material_under(b, f, "material");
     bool const flipped = f.boolean("flip").value_or(false);
     auto const emission = read_emission(b, f, in_object);
+    check_uv(b, f, material, geometries);
+    if (emission && material_at(b, material) && material_at(b, material)->alpha)
+        f.error_at("emission", "a lamp has no holes: its material has 'alpha'");
     for (ShapeGeometry& g : geometries) {
         if (f.find("transform")) apply_transform(b, f, transform, g);
         Shape shape{std::move(g), material, -1, flipped};

@@ -108,11 +108,6 @@ std::optional<SpectralFunction> from_object(SceneBuilder& b, JsonValue const& va
     return result;
 }
 
-bool has_key(JsonValue const& value, std::string const& key) {
-    JsonObject const* const object = value.as<JsonObject>();
-    return object && std::ranges::any_of(*object, [&](auto const& entry) { return entry.first == key; });
-}
-
 char const* outside_text(Outside outside) {
     switch (outside) {
         case Outside::hold:
@@ -150,8 +145,16 @@ void check_spectrum(SceneBuilder& b, JsonValue const& at, std::string const& pat
                                     between(kind.least, kind.most == 1 + reflectance_slack ? 1 : kind.most).text()));
 }
 
-std::optional<SpectralFunction> read_value(SceneBuilder& b, JsonValue const& value, std::string const& path,
-                                           SpectrumKind const& kind) {
+}  // namespace
+
+SpectrumKind const reflectance_kind{SpectralQuantity::reflectance, Outside::hold, false, 0, 1 + reflectance_slack};
+SpectrumKind const emission_kind{SpectralQuantity::radiance, Outside::zero, true, 0, unbounded};
+SpectrumKind const transmittance_kind{SpectralQuantity::transmittance, Outside::hold, false, 0, 1 + reflectance_slack};
+SpectrumKind const absorption_kind{SpectralQuantity::absorption, Outside::hold, false, 0, unbounded};
+SpectrumKind const index_kind{SpectralQuantity::complex_index, Outside::error, false, 0, 1000};
+
+std::optional<SpectralFunction> read_spectrum_value(SceneBuilder& b, JsonValue const& value, std::string const& path,
+                                                    SpectrumKind const& kind) {
     std::optional<SpectralFunction> result;
     if (double const* x = value.as<double>())
         result = SpectralFunction::constant(*x);
@@ -166,18 +169,10 @@ std::optional<SpectralFunction> read_value(SceneBuilder& b, JsonValue const& val
     return result;
 }
 
-}  // namespace
-
-SpectrumKind const reflectance_kind{SpectralQuantity::reflectance, Outside::hold, false, 0, 1 + reflectance_slack};
-SpectrumKind const emission_kind{SpectralQuantity::radiance, Outside::zero, true, 0, unbounded};
-SpectrumKind const transmittance_kind{SpectralQuantity::transmittance, Outside::hold, false, 0, 1 + reflectance_slack};
-SpectrumKind const absorption_kind{SpectralQuantity::absorption, Outside::hold, false, 0, unbounded};
-SpectrumKind const index_kind{SpectralQuantity::complex_index, Outside::error, false, 0, 1000};
-
 std::optional<SpectralFunction> read_spectrum(SceneBuilder& b, Fields& fields, std::string const& key,
                                               SpectrumKind const& kind) {
     JsonValue const* const value = fields.require(key);
-    return value ? read_value(b, *value, fields.path(key), kind) : std::nullopt;
+    return value ? read_spectrum_value(b, *value, fields.path(key), kind) : std::nullopt;
 }
 
 std::optional<ComplexIndex> read_complex_index(SceneBuilder& b, Fields& fields, std::string const& key) {

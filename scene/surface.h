@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// The point of a shape that a ray met, in the shape's coordinates: position and normals. `on_ray` is the point along
+// the ray: shapes with a closed form pull it onto the surface, which leaves an error of a few units in the last place.
+// Filled in place: the rest of a SurfacePoint is for those who ask for it (scene/parametrisation.h).
+#pragma once
+
+#include <cstdint>
+
+#include "scene/frustum_intersection.h"
+
+namespace iride {
+
+// Barycentric coordinates of a triangle or quad, as Embree gives them, and the triangle of a mesh.
+struct HitCoordinates {
+    float u, v;
+    std::uint32_t primitive;
+};
+
+inline void set_plain(SurfacePoint& point, Vector const& position, Direction const& normal) {
+    point.position = position;
+    point.geometric_normal = point.normal = normal;
+}
+
+inline void locate(Sphere const& s, Vector const& on_ray, HitCoordinates const&, SurfacePoint& point) {
+    Direction const n = (on_ray - s.centre).normalized();
+    set_plain(point, s.centre + s.radius * n, n);
+}
+inline void locate(Quad const& q, Vector const&, HitCoordinates const& hit, SurfacePoint& point) {
+    // Embree's quad is the triangles (0 1 3), parametrised by (u, v), and (2 3 1), by (1 - u, 1 - v).
+    auto const& c = q.corner;
+    float const u = hit.u, v = hit.v;
+    Vector const p = u + v <= 1 ? Vector(c[0] + u * (c[1] - c[0]) + v * (c[3] - c[0]))
+                                : Vector(c[2] + (1 - u) * (c[3] - c[2]) + (1 - v) * (c[1] - c[2]));
+    set_plain(point, p, q.normal);
+}
+inline void locate(Disc const& d, Vector const& on_ray, HitCoordinates const&, SurfacePoint& point) {
+    set_plain(point, on_ray - d.normal * d.normal.dot(on_ray - d.centre), d.normal);
+}
+inline void locate(Frustum const& f, Vector const& on_ray, HitCoordinates const&, SurfacePoint& point) {
+    auto const [position, normal] = project(f, on_ray);
+    set_plain(point, position, normal);
+}
+inline void locate(MeshShape const& m, Vector const&, HitCoordinates const& hit, SurfacePoint& point) {
+    auto const& t = m.mesh->triangle[hit.primitive];
+    Vector const &a = m.mesh->position[t[0]], &b = m.mesh->position[t[1]], &c = m.mesh->position[t[2]];
+    float const u = hit.u, v = hit.v, w = 1 - u - v;
+    Direction const n = (b - a).cross(c - a).normalized();
+    set_plain(point, w * a + u * b + v * c, n);
+    if (m.smooth && !m.mesh->normal.empty()) {
+        auto const& N = m.mesh->normal;
+        point.normal = (w * N[t[0]] + u * N[t[1]] + v * N[t[2]]).normalized();
+        if (point.normal.dot(n) < 0) point.normal = -point.normal;  // the winding decides which side is the front
+    }
+}
+
+}  // namespace iride
