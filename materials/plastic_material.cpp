@@ -6,7 +6,7 @@ namespace iride {
 
 PlasticMaterial::PlasticMaterial(ReflectanceMap reflectance, SpectralFunction const& n,
                                  SpectralFunction const& optical_depth, float roughness, WavelengthGrid const& grid)
-    : Material({}),
+    : Material({.textured = reflectance.varies()}),
       reflectance_(std::move(reflectance)),
       n_(n, grid),
       depth_(optical_depth, grid),

@@ -2,6 +2,7 @@
 // Coated diffuse materials, as a scene file gives them.
 #include "materials/plastic_material.h"
 #include "scene/material_readers.h"
+#include "scene/texture_readers.h"
 
 namespace iride {
 
@@ -9,7 +10,7 @@ namespace {
 
 // What a coat lets through along its normal, once; below the least value it hides its base to the last bit of a float.
 constexpr double least_transmittance = 1e-8;
-constexpr SpectrumKind transmittance_kind{SpectralQuantity::reflectance, Outside::hold, false, least_transmittance, 1};
+constexpr SpectrumKind coat_kind{SpectralQuantity::reflectance, Outside::hold, false, least_transmittance, 1};
 
 // -ln of a transmittance, at whole nanometres.
 SpectralFunction optical_depth(SpectralFunction const& transmittance, WavelengthGrid const& grid) {
@@ -25,13 +26,12 @@ SpectralFunction optical_depth(SpectralFunction const& transmittance, Wavelength
 }  // namespace
 
 MaterialPointer read_plastic(SceneBuilder& b, Fields& f) {
-    auto const reflectance = read_spectrum(b, f, "reflectance", reflectance_kind);
+    auto const reflectance = read_reflectance_map(b, f, "reflectance");
     auto const ior =
         f.find("ior") ? read_complex_index(b, f, "ior")
                       : std::optional<ComplexIndex>({SpectralFunction::constant(1.5), SpectralFunction::constant(0)});
-    auto const transmittance = f.find("coat_transmittance")
-                                   ? read_spectrum(b, f, "coat_transmittance", transmittance_kind)
-                                   : SpectralFunction::constant(1);
+    auto const transmittance = f.find("coat_transmittance") ? read_spectrum(b, f, "coat_transmittance", coat_kind)
+                                                            : SpectralFunction::constant(1);
     double const roughness = f.number("roughness", between(0, 1)).value_or(0);
     if (roughness > 0 && roughness < 1e-3)
         f.error_at("roughness", "allowed: 0 (a smooth coat) or 0.001 .. 1 (GGX alpha)");
@@ -44,9 +44,8 @@ MaterialPointer read_plastic(SceneBuilder& b, Fields& f) {
         f.error_at("ior", "allowed: an index of at least 1, that of the air around");
         return nullptr;
     }
-    return std::make_unique<PlasticMaterial>(Reflectance(*reflectance, b.scene.grid), ior->n,
-                                             optical_depth(*transmittance, b.scene.grid), static_cast<float>(roughness),
-                                             b.scene.grid);
+    return std::make_unique<PlasticMaterial>(*reflectance, ior->n, optical_depth(*transmittance, b.scene.grid),
+                                             static_cast<float>(roughness), b.scene.grid);
 }
 
 }  // namespace iride
