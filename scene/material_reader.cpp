@@ -93,11 +93,7 @@ int read_material_under(SceneBuilder& b, Fields& f, std::string const& key) {
         }
     }
     --b.material_depth;
-    if (index < 0) return unknown_material(b);
-    NamedMaterial const& part = b.scene.materials[static_cast<std::size_t>(index)];
-    if (part.relief || part.alpha)
-        f.error_at(key, "'bump', 'normal_map' and 'alpha' of a part have no effect: put them on what is made of it");
-    return index;
+    return index >= 0 ? index : unknown_material(b);
 }
 
 }  // namespace iride

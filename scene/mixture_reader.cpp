@@ -17,11 +17,12 @@ constexpr std::size_t most_parts = 64;
 // The material under `key`, fit to be part of another; null after an error.
 Material const* read_part(SceneBuilder& b, Fields& f, std::string const& key) {
     std::size_t const errors_before = b.context.diagnostics.size();
-    Material const& material = b.scene.material(read_material_under(b, f, key));
-    if (b.context.diagnostics.size() > errors_before) return nullptr;
-    if (material.traits.two_sided) return &material;
-    f.error_at(key, "a transparent body has an inside and cannot be part of another material");
-    return nullptr;
+    NamedMaterial const& part = b.scene.materials[static_cast<std::size_t>(read_material_under(b, f, key))];
+    if (!part.material->traits.two_sided)
+        f.error_at(key, "a transparent body has an inside and cannot be part of another material");
+    if (part.relief || part.alpha)
+        f.error_at(key, "'bump', 'normal_map' and 'alpha' of a part have no effect: put them on what is made of it");
+    return b.context.diagnostics.size() > errors_before ? nullptr : part.material.get();
 }
 
 }  // namespace
