@@ -2,6 +2,7 @@
 #include "scene/cut_out.h"
 
 #include <bit>
+#include <cmath>
 
 #include "base/random.h"
 
@@ -36,7 +37,7 @@ std::optional<float> first_stop(Shape const& shape, Frustum const& frustum, Ray 
     for (;;) {
         std::optional<float> const t = intersect(frustum, ray);
         if (!t || stops(shape, ray, *t, {0, 0, 0})) return t;
-        ray.t_min = *t;
+        ray.t_min = std::nextafter(*t, infinity);  // the root, in double, may lie above its float
     }
 }
 
