@@ -97,10 +97,39 @@ std::optional<double> band_nm(std::string name) {
 struct Bands {
     std::vector<std::size_t> field;  // index of each band's field
     std::vector<double> nm;
+    double norm = 1;  // value that means 1
 };
 
-Bands bands_of(std::filesystem::path const& path, Table const& table) {
+// The older form: a field SPECTRAL_NM, the wavelength itself, before each SPECTRAL_PCT (per cent) or SPECTRAL_DEC
+// (parts of one). Every sample must have the same wavelengths.
+Bands bands_beside_their_wavelengths(std::filesystem::path const& path, Table const& table) {
     Bands bands;
+    std::size_t const width = table.fields.size();
+    for (std::size_t i = 0; i < width; ++i) {
+        if (table.fields[i].text != "SPECTRAL_NM") continue;
+        std::string const quantity = i + 1 < width ? table.fields[i + 1].text : "";
+        double const norm = quantity == "SPECTRAL_PCT" ? 100 : 1;
+        if (norm == 1 && quantity != "SPECTRAL_DEC")
+            fail(path, table.fields[i].line, "SPECTRAL_NM is followed by neither SPECTRAL_PCT nor SPECTRAL_DEC");
+        if (!bands.field.empty() && bands.norm != norm)
+            fail(path, table.fields[i].line, "holds both SPECTRAL_PCT and SPECTRAL_DEC");
+        bands.norm = norm;
+        bands.field.push_back(i + 1);
+        for (std::size_t at = i; at < table.values.size(); at += width) {
+            double const nm = number(path, table.values[at].line, table.values[at].text);
+            if (at == i)
+                table_text::append_wavelength(bands.nm, path, table.values[at].line, nm);
+            else if (nm != bands.nm.back())
+                fail(path, table.values[at].line,
+                     fmt::format("found {:g} nm where the first sample has {:g}", nm, bands.nm.back()));
+        }
+    }
+    return bands;
+}
+
+Bands bands_of(std::filesystem::path const& path, Table const& table) {
+    Bands bands = bands_beside_their_wavelengths(path, table);
+    if (!bands.nm.empty()) return bands;
     for (std::size_t i = 0; i < table.fields.size(); ++i)
         if (auto const nm = band_nm(table.fields[i].text)) {
             bands.field.push_back(i);
@@ -158,7 +187,7 @@ SpectrumFile read_cgats(std::filesystem::path const& path, std::vector<std::stri
         if (rows == 0) fail(path, table.line, "holds no samples");
         if (auto const sets = table.number_of(path, "NUMBER_OF_SETS"); sets && *sets != static_cast<double>(rows))
             fail(path, table.line, fmt::format("found {} samples, but NUMBER_OF_SETS is {}", rows, *sets));
-        double const norm = table.number_of(path, "SPECTRAL_NORM").value_or(1);
+        double const norm = table.number_of(path, "SPECTRAL_NORM").value_or(bands.norm);
         if (!(norm > 0)) fail(path, table.line, fmt::format("SPECTRAL_NORM {}: it must be above 0", norm));
         SpectrumFile file;
         file.path = path;

@@ -15,9 +15,10 @@ namespace iride {
 bool is_cgats(std::vector<std::string> const& lines);
 
 // The first table with spectral fields (SPEC_380, SPECTRAL_NM_380, SPECTRAL_NM380, SPECTRAL_380, NM_380, nm380, R_380,
-// R380). Wavelengths are SPECTRAL_START_NM .. SPECTRAL_END_NM in equal steps if the file gives them with SPECTRAL_BANDS
-// (field names are then rounded), else the names' own; values are divided by SPECTRAL_NORM. Columns are called by
-// SAMPLE_NAME, SAMPLE_ID or SAMPLE_LOC, whichever first tells the samples apart, else by row. Throws InputError.
+// R380), or the older pairs SPECTRAL_NM, SPECTRAL_PCT or SPECTRAL_DEC. Wavelengths are SPECTRAL_START_NM ..
+// SPECTRAL_END_NM in equal steps if the file gives them with SPECTRAL_BANDS (field names are then rounded), else the
+// names' own; values are divided by SPECTRAL_NORM. Columns are called by SAMPLE_NAME, SAMPLE_ID or SAMPLE_LOC,
+// whichever first tells the samples apart, else by row. Throws InputError.
 SpectrumFile read_cgats(std::filesystem::path const& path, std::vector<std::string> const& lines);
 
 }  // namespace iride

@@ -54,6 +54,31 @@ TEST_CASE("a .ti3 gives a column per sample, in parts of one, at exact wavelengt
     CHECK(load_spectra("D65", SpectralQuantity::power).size() == 1);
 }
 
+TEST_CASE("wavelengths that stand beside their values are read, in per cent or parts of one", "[unit]") {
+    auto const text = [](std::string const& quantity, std::string const& rows) {
+        return "CGATS.17\nBEGIN_DATA_FORMAT\nSAMPLE_ID SPECTRAL_NM " + quantity + " SPECTRAL_NM " + quantity +
+               "\nEND_DATA_FORMAT\nBEGIN_DATA\n" + rows + "END_DATA\n";
+    };
+    Written const per_cent("iride_pct.txt", text("SPECTRAL_PCT", "a 400 50 500 60\nb 400 5 500 6\n")),
+        parts("iride_dec.txt", text("SPECTRAL_DEC", "a 400 .5 500 .6\n"));
+    CHECK(read_spectrum_file(per_cent.path()).wavelength_nm == std::vector<double>{400, 500});
+    CHECK(read_spectrum_file(per_cent.path()).column.at("b") == std::vector<double>{.05, .06});
+    CHECK(read_spectrum_file(parts.path()).column.at("a") == std::vector<double>{.5, .6});
+    auto const refused = [](Written const& file) {
+        try {
+            read_spectrum_file(file.path());
+        } catch (InputError const& error) {
+            return std::string(error.what());
+        }
+        return std::string("accepted");
+    };
+    using Catch::Contains;
+    CHECK_THAT(refused({"a.txt", text("SPECTRAL_DEC", "a 400 .5 500 .6\nb 400 .5 510 .6\n")}),
+               Contains("a.txt:7") && Contains("found 510 nm where the first sample has 500"));
+    CHECK_THAT(refused({"a.txt", text("SPECTRAL_X", "a 400 .5 500 .6\n")}), Contains("neither SPECTRAL_PCT"));
+    CHECK_THAT(refused({"a.txt", text("SPECTRAL_DEC", "a 500 .5 400 .6\n")}), Contains("must increase"));
+}
+
 TEST_CASE("field names of other instruments are known, rows may wrap, samples without names are counted", "[unit]") {
     for (char const* fields :
          {"nm400 nm500", "SPECTRAL_NM_400 SPECTRAL_NM_500", "R_400 R_500", "SPECTRAL_NM400 SPECTRAL_NM500"}) {
