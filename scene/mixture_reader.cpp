@@ -51,7 +51,7 @@ MaterialPointer read_mixture(SceneBuilder& b, Fields& f) {
     }
     if (!good) return nullptr;
     if (std::abs(sum - 1) > sum_tolerance) {
-        f.error_at("parts", fmt::format("the weights sum to {}, they must sum to 1", sum));
+        f.error_at("parts", fmt::format("the weights sum to {:.9g}, they must sum to 1", sum));
         return nullptr;
     }
     return std::make_unique<MixtureMaterial>(parts);
