@@ -40,6 +40,18 @@ struct Frame {
                 Vector(b, sign + n.y() * n.y() * a, -n.y()), n};
     }
 
+    // Around n, with the tangent along what of t lies in the surface.
+    static Frame along(Direction const& n, Vector const& t) {
+        Vector const flat = t - n * n.dot(t);
+        constexpr float parallel = 1e-4f;  // |flat| / |t| below which its direction is rounding
+        if (!(flat.squaredNorm() > square(parallel) * t.squaredNorm())) return around(n);
+        Direction const tangent = flat.normalized();
+        return {tangent, n.cross(tangent), n};
+    }
+    Frame turned(Vector2 const& x) const {
+        return {tangent * x.x() + bitangent * x.y(), bitangent * x.x() - tangent * x.y(), normal};
+    }
+
     Vector to_local(Vector const& v) const { return {tangent.dot(v), bitangent.dot(v), normal.dot(v)}; }
     Vector to_world(Vector const& v) const { return tangent * v.x() + bitangent * v.y() + normal * v.z(); }
 };

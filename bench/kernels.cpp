@@ -2,28 +2,25 @@
 // What single steps of a path cost: see bench/README.md.
 #include <benchmark/benchmark.h>
 
-#include "materials/conductor_material.h"
+#include "materials/closure.h"
 
 namespace {
 
 using namespace iride;
 
-Bsdf rough_gold(float alpha, bool multiple_scattering) {
-    static std::vector<std::unique_ptr<GgxAlbedo const>> albedos;
-    Lanes n, k;
-    for (int i = 0; i < lane_count; ++i) {  // from blue to red, roughly
+// From blue to red, roughly.
+BareFresnel gold() {
+    BareFresnel fresnel;
+    for (int i = 0; i < lane_count; ++i) {
         float const x = static_cast<float>(i) / lane_count;
-        n.set(i, 1.4f - 1.2f * x);
-        k.set(i, 1.9f + 1.5f * x);
+        fresnel.n.set(i, 1.4f - 1.2f * x);
+        fresnel.k.set(i, 1.9f + 1.5f * x);
     }
-    if (!multiple_scattering) return RoughConductor{n, k, {alpha}};
-    albedos.push_back(std::make_unique<GgxAlbedo const>(Ggx{alpha}));
-    return InterreflectingConductor{n, k, Lanes(.5f), {alpha}, albedos.back().get()};
+    return fresnel;
 }
 
 // One vertex of a path with light sampling: evaluate for a light's direction, then sample. [ns]
-void conductor(benchmark::State& state) {
-    Bsdf const bsdf = rough_gold(static_cast<float>(state.range(1)) / 100, state.range(0) != 0);
+void vertex(benchmark::State& state, Bsdf const& bsdf) {
     std::uint32_t i = 0;
     std::vector<std::pair<Direction, Direction>> directions;
     std::vector<Sample3> numbers;
@@ -39,7 +36,41 @@ void conductor(benchmark::State& state) {
         ++i;
     }
 }
+
+void conductor(benchmark::State& state) {
+    float const alpha = static_cast<float>(state.range(1)) / 100;
+    auto const loss = shared_facet_loss(Facets::ggx(alpha, alpha));
+    vertex(state, RoughConductor{gold(), alpha, state.range(0) != 0 ? loss.get() : nullptr, Lanes(.5f)});
+}
 BENCHMARK(conductor)->ArgNames({"multiple", "alpha_percent"})->ArgsProduct({{0, 1}, {5, 20, 50, 100}});
+
+void facets(benchmark::State& state, Facets const& facets) {
+    auto const loss = shared_facet_loss(facets);
+    if (facets.is_plain())
+        vertex(state, RoughConductor{gold(), facets.plain(), loss.get(), Lanes(.5f)});
+    else
+        vertex(state, RoughMetal<BareFresnel, FacetsOfMaterial>{gold(), {&facets}, loss.get(), Lanes(.5f)});
+}
+std::vector<FacetComponent> const one{{1, .2f, .2f}}, brushed{{1, .05f, .3f}}, two{{.5f, .1f, .1f}, {.5f, .4f, .4f}};
+BENCHMARK_CAPTURE(facets, ggx_anisotropic, Facets{brushed});
+BENCHMARK_CAPTURE(facets, ggx_mixture, Facets{two});
+BENCHMARK_CAPTURE(facets, beckmann, Facets{one, FacetShape::beckmann});
+BENCHMARK_CAPTURE(facets, beckmann_mixture, Facets{two, FacetShape::beckmann});
+BENCHMARK_CAPTURE(facets, ggx_v_cavity, Facets{one, FacetShape::ggx, Masking::v_cavity});
+BENCHMARK_CAPTURE(facets, beckmann_v_cavity, Facets{one, FacetShape::beckmann, Masking::v_cavity});
+
+void rough_glass(benchmark::State& state) {
+    BoundaryLoss const loss(Facets::ggx(.2f, .2f), 1.5, 1.5);
+    vertex(state, RoughDielectric<Ggx>{Lanes(1.5f), Lanes(1), .2f, &loss});
+}
+BENCHMARK(rough_glass);
+
+// What a material with facets of its own costs at load. [ms]
+void tabulate_loss(benchmark::State& state) {
+    float const alpha = static_cast<float>(state.range(0)) / 1000;
+    for (auto _ : state) benchmark::DoNotOptimize(FacetLoss(Facets::ggx(alpha, alpha)));
+}
+BENCHMARK(tabulate_loss)->ArgName("alpha_permille")->Arg(1)->Arg(50)->Arg(1000)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 

@@ -62,7 +62,8 @@ struct Interaction {
             normal = bent_to_viewer(normal, geometric_normal, to_viewer);
         else if ((to_viewer.dot(normal) > 0) != (cosine > 0))
             normal = geometric_normal;
-        frame = Frame::around(normal);
+        frame = material.traits.anisotropic ? Frame::along(normal, hit.point.tangent).turned(material.traits.grain)
+                                            : Frame::around(normal);
         wo = frame.to_local(to_viewer);
     }
 };

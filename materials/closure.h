@@ -11,15 +11,18 @@
 #include "materials/lambert.h"
 #include "materials/oren_nayar.h"
 #include "materials/plastic.h"
+#include "materials/rough_dielectric.h"
 #include "materials/thin_slab.h"
 
 namespace iride {
 
 class Bsdf {
   public:
-    using Model = std::variant<Black, Lambert, SmoothConductor, RoughConductor, InterreflectingConductor,
-                               SmoothDielectric, SmoothCoatedConductor, RoughCoatedConductor, ThinSlab, OrenNayar,
-                               SmoothPlastic, RoughPlastic, Phong, BlinnPhong, ModifiedBlinnPhong>;
+    using Model =
+        std::variant<Black, Lambert, SmoothConductor, RoughConductor, RoughMetal<BareFresnel, FacetsOfMaterial>,
+                     SmoothCoatedConductor, RoughCoatedConductor, RoughMetal<CoatedFresnel, FacetsOfMaterial>,
+                     SmoothDielectric, RoughDielectric<Ggx>, RoughDielectric<FacetsOfMaterial>, ThinSlab, OrenNayar,
+                     SmoothPlastic, RoughPlastic, Phong, BlinnPhong, ModifiedBlinnPhong>;
 
     template <BsdfModel T>
     Bsdf(T const& model) : model_(model) {}

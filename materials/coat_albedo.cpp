@@ -20,7 +20,7 @@ std::vector<double> quadrature(Ggx ggx, double cosine, std::vector<double> const
         for (int j = 0; j < heights; ++j) {
             float const turn = (static_cast<float>(i) + 0.5f) / (2 * azimuths);
             float const t = (static_cast<float>(j) + 0.5f) / heights;
-            Direction const h = ggx.visible_normal(wo, {turn, 1 - t * t * t});
+            Direction const h = ggx.visible_normal(wo, {0, {turn, 1 - t * t * t}});
             float const incidence = std::clamp(wo.dot(h), 0.0f, 1.0f);
             Direction const wi = 2 * incidence * h - wo;
             if (!(wi.z() > 0)) continue;
@@ -49,7 +49,7 @@ double smooth_round_trip(double n, double optical_depth) {
 }  // namespace
 
 CoatAlbedo::CoatAlbedo(Ggx ggx, double least, double most)
-    : column_count_(most > least ? 17 : 1), least_(static_cast<float>(least)), bend_(2 * ggx.alpha + 0.1f) {
+    : column_count_(most > least ? 17 : 1), least_(static_cast<float>(least)), bend_(2 * ggx.alpha_x + 0.1f) {
     double const step = column_count_ == 1 ? 1 : (most - least) / (column_count_ - 1);
     columns_per_n_ = static_cast<float>(1 / step);
     std::vector<double> indices;

@@ -2,6 +2,7 @@
 #include "materials/coating.h"
 
 #include "base/diagnostics.h"
+#include "base/vector.h"
 
 namespace iride {
 
@@ -67,6 +68,25 @@ double coated_reflectance(std::span<CoatingLayer const> layers, ComplexIndex con
                           double cosine) {
     return thin_film<double>(cosine, 1, stack_at(layers, wavelength_nm), at(substrate, wavelength_nm), wavelength_nm)
         .R.unpolarised();
+}
+
+// With x = sqrt(mu): int 4 x^3 R(x) dx, R linear in every cell.
+double CoatingTable::mean_reflectance(double nm) const {
+    auto const row = static_cast<std::size_t>(std::lround(nm * rows_per_nm_));
+    auto const at_column = [&](int c) {
+        return static_cast<double>(value_[static_cast<std::size_t>(c) * static_cast<std::size_t>(rows_) + row]);
+    };
+    double sum = 0;
+    for (int c = 0; c + 1 < columns_; ++c) {
+        double const cells = columns_ - 1, a = c / cells, b = (c + 1) / cells,
+                     slope = (at_column(c + 1) - at_column(c)) * cells;
+        auto const primitive = [&](double x) {
+            double const x4 = square(square(x));
+            return x4 * (at_column(c) - slope * a) + 0.8 * x4 * x * slope;
+        };
+        sum += primitive(b) - primitive(a);
+    }
+    return sum;
 }
 
 CoatingTable::CoatingTable(std::span<CoatingLayer const> layers, ComplexIndex const& substrate,

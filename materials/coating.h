@@ -36,6 +36,9 @@ class CoatingTable {
     // cosine in [0, 1]; below it, or NaN, as 0: no reading outside the table.
     Lanes reflectance(LaneRegister row, float cosine) const;
 
+    // 2 int R mu dmu at a wavelength that many nanometres from the grid's first.
+    double mean_reflectance(double nm) const;
+
     int rows() const { return rows_; }
     int columns() const { return columns_; }
 

@@ -4,21 +4,42 @@
 
 namespace iride {
 
-ConductorMaterial::ConductorMaterial(ComplexIndex const& index, float roughness, bool multiple_scattering,
-                                     WavelengthGrid const& grid)
-    : Material({.has_density = roughness > 0}), n_(index.n, grid), k_(index.k, grid), roughness_(roughness) {
-    if (roughness == 0 || !multiple_scattering) return;
-    albedo_ = std::make_unique<GgxAlbedo const>(Ggx{roughness});
-    auto const fresnel_at = [&](double nm) {
-        return multiple_scattering_fresnel(mean_fresnel(index.n.at(nm), index.k.at(nm)),
-                                           static_cast<double>(albedo_->mean_loss()));
-    };
+Interreflection::Interreflection(Facets const& facets, WavelengthGrid const& grid,
+                                 std::function<double(double)> const& mean_fresnel) {
+    if (facets.is_smooth()) return;
+    loss_ = shared_facet_loss(facets);
     TabulatedShape table;
     for (int i = 0; i < grid.count; ++i) {
-        table.nm.push_back(grid.first_nm + i);
-        table.value.push_back(fresnel_at(table.nm.back()));
+        double const nm = grid.first_nm + i;
+        table.nm.push_back(nm);
+        table.value.push_back(multiple_scattering_fresnel(mean_fresnel(nm), static_cast<double>(loss_->mean())));
     }
     multiple_fresnel_ = Reflectance(SpectralFunction(std::move(table), Outside::hold), grid);
+}
+
+ConductorMaterial::ConductorMaterial(ComplexIndex const& index, RoughSurface surface, bool multiple_scattering,
+                                     WavelengthGrid const& grid)
+    : Material({.has_density = !surface.facets.is_smooth(),
+                .anisotropic = surface.facets.is_anisotropic(),
+                .grain = surface.grain()}),
+      n_(index.n, grid),
+      k_(index.k, grid),
+      facets_(std::move(surface.facets)) {
+    if (multiple_scattering)
+        interreflection_ =
+            Interreflection(facets_, grid, [&](double nm) { return mean_fresnel(index.n.at(nm), index.k.at(nm)); });
+}
+
+CoatedConductorMaterial::CoatedConductorMaterial(CoatingTable table, RoughSurface surface, bool multiple_scattering,
+                                                 WavelengthGrid const& grid)
+    : Material({.has_density = !surface.facets.is_smooth(),
+                .anisotropic = surface.facets.is_anisotropic(),
+                .grain = surface.grain()}),
+      table_(std::move(table)),
+      facets_(std::move(surface.facets)) {
+    if (multiple_scattering)
+        interreflection_ =
+            Interreflection(facets_, grid, [&](double nm) { return table_.mean_reflectance(nm - grid.first_nm); });
 }
 
 }  // namespace iride

@@ -9,37 +9,57 @@
 
 namespace iride {
 
+// What light of several bounces between a metal's facets needs, worked out before it is hit.
+class Interreflection {
+  public:
+    // mean_fresnel: F_avg at a wavelength in nm. Smooth facets, or none: single scattering.
+    Interreflection() = default;
+    Interreflection(Facets const& facets, WavelengthGrid const& grid,
+                    std::function<double(double)> const& mean_fresnel);
+
+    // The closure of rough facets with this Fresnel term.
+    template <class Fresnel>
+    Bsdf closure(Fresnel const& fresnel, Facets const& facets, Wavelengths const& w) const {
+        Lanes const multiple = loss_ ? multiple_fresnel_.at(w) : Lanes();
+        if (facets.is_plain()) return RoughMetal<Fresnel, Ggx>{fresnel, facets.plain(), loss_.get(), multiple};
+        return RoughMetal<Fresnel, FacetsOfMaterial>{fresnel, {&facets}, loss_.get(), multiple};
+    }
+
+  private:
+    std::shared_ptr<FacetLoss const> loss_;  // null: single scattering
+    Reflectance multiple_fresnel_;
+};
+
 class ConductorMaterial : public Material {
   public:
-    // roughness: GGX alpha, 0 for a mirror, which has nothing to scatter several times.
-    ConductorMaterial(ComplexIndex const& index, float roughness, bool multiple_scattering, WavelengthGrid const& grid);
+    ConductorMaterial(ComplexIndex const& index, RoughSurface surface, bool multiple_scattering,
+                      WavelengthGrid const& grid);
     Bsdf at(SurfacePoint const&, Wavelengths const& w) const override {
-        if (roughness_ == 0) return SmoothConductor{n_.at(w), k_.at(w)};
-        if (!albedo_) return RoughConductor{n_.at(w), k_.at(w), {roughness_}};
-        return InterreflectingConductor{n_.at(w), k_.at(w), multiple_fresnel_.at(w), {roughness_}, albedo_.get()};
+        if (facets_.is_smooth()) return SmoothConductor{n_.at(w), k_.at(w)};
+        return interreflection_.closure(BareFresnel{n_.at(w), k_.at(w)}, facets_, w);
     }
 
   private:
     Index n_, k_;
-    float roughness_;
-    std::unique_ptr<GgxAlbedo const> albedo_;  // null: single scattering
-    Reflectance multiple_fresnel_;
+    Facets facets_;
+    Interreflection interreflection_;
 };
 
+// The coating follows the facets.
 class CoatedConductorMaterial : public Material {
   public:
-    // roughness: GGX alpha, 0 for a mirror; the coating follows the facets.
-    CoatedConductorMaterial(CoatingTable table, float roughness)
-        : Material({.has_density = roughness > 0}), table_(std::move(table)), roughness_(roughness) {}
+    CoatedConductorMaterial(CoatingTable table, RoughSurface surface, bool multiple_scattering,
+                            WavelengthGrid const& grid);
     Bsdf at(SurfacePoint const&, Wavelengths const& w) const override {
         CoatedFresnel const fresnel{&table_, table_.row_of(w)};
-        if (roughness_ == 0) return SmoothCoatedConductor{fresnel};
-        return RoughCoatedConductor{fresnel, {roughness_}};
+        if (facets_.is_smooth()) return SmoothCoatedConductor{fresnel};
+        return interreflection_.closure(fresnel, facets_, w);
     }
 
   private:
     CoatingTable table_;
-    float roughness_;
+    Facets facets_;
+    Interreflection interreflection_;
 };
 
 }  // namespace iride

@@ -83,8 +83,8 @@ FresnelAmplitudes<Real> fresnel_amplitudes(WaveMedium<Real> const& near, WaveMed
     return {s, p, Real(1) + s, (Real(1) + p) * (near.N / far.N)};
 }
 
-// All lanes at once. One loop, so that it is compiled to SIMD instructions. [dimensionless]
-inline Lanes fresnel_unpolarised(float cosine, Lanes eta, Lanes kappa) {
+// All lanes at once. One loop, compiled to SIMD instructions if all that it calls is part of it. [dimensionless]
+[[gnu::flatten]] inline Lanes fresnel_unpolarised(float cosine, Lanes eta, Lanes kappa) {
     Lanes result;
     for (int i = 0; i < lane_count; ++i) result.lane[i] = fresnel(cosine, eta.lane[i], kappa.lane[i]).unpolarised();
     return result;

@@ -16,6 +16,7 @@ struct MaterialTraits {
     bool has_density = true;   // some closure has a density: if none has, light sampling is in vain
     bool textured = false;     // looks at uv
     bool anisotropic = false;  // looks at the tangent
+    Vector2 grain{1, 0};       // x axis of anisotropic facets along tangent and bitangent of the surface
 };
 
 class Material {

@@ -1,49 +1,73 @@
 // SPDX-License-Identifier: Apache-2.0
-// The GGX (Trowbridge-Reitz) distribution of microfacet normals, its Smith masking, and visible-normal sampling.
-//   D(h)      = 1 / (pi a^2 c^4 (1 + t^2 / a^2)^2)       c, t: cosine and tangent of h against the normal
-//   Lambda(w) = (sqrt(1 + a^2 tan^2 w) - 1) / 2
-//   G1(w)     = 1 / (1 + Lambda(w))         G2(wo, wi) = 1 / (1 + Lambda(wo) + Lambda(wi)), height correlated
-//   visible normals: D_w(h) = G1(w) D(h) <w, h> / cos w.            [Walter 2007] [Heitz 2014] [Dupuy 2023]
+// What every model of microfacets says of itself, and the GGX (Trowbridge-Reitz) distribution, the one with a closed
+// form for everything. In general, with slopes of the facets (-h.x, -h.y) / h.z of joint density P:
+//   D(h)      = P / h.z^4
+//   G1(w, h)  = 1 / (1 + Lambda(w, h))                   share of the facets h that w sees
+//   G2        = 1 / (1 + joint(Lambda(wo, h), Lambda(wi, h)))   both see them; Smith: the sum, height correlated
+//   visible normals: D_w(h) = G1(w, h) D(h) <w, h> / w.z
+// GGX: D = 1 / (pi ax ay (h.z^2 + (h.x / ax)^2 + (h.y / ay)^2)^2),
+//      Lambda(w) = (sqrt(1 + ((ax w.x)^2 + (ay w.y)^2) / w.z^2) - 1) / 2.  [Walter 2007] [Heitz 2014] [Dupuy 2023]
 #pragma once
 
+#include <concepts>
+
 #include "base/warp.h"
+#include "materials/bsdf.h"
 
 namespace iride {
 
+// Cosine below which a surface is seen edge-on and scatters nothing: half vectors and D / cos have lost their digits.
+inline constexpr float edge_on = 1e-6f;
+
+template <class T>
+concept FacetModel = requires(T const& facets, Direction const& w, float lambda, Sample3& u) {
+    { facets.distribution(w) } -> std::same_as<PerSteradian>;
+    { facets.lambda(w, w) } -> std::same_as<float>;
+    { facets.joint(lambda, lambda) } -> std::same_as<float>;
+    { facets.visible_normal(w, u) } -> std::same_as<Direction>;  // w.z > 0; what is left of u.lobe is uniform again
+};
+
 struct Ggx {
-    float alpha;  // rms-like slope, > 0
+    float alpha_x, alpha_y;  // rms-like slopes along x and y, > 0
+
+    Ggx(float alpha) : Ggx(alpha, alpha) {}
+    Ggx(float ax, float ay) : alpha_x(ax), alpha_y(ay) {}
 
     // [1/sr]. From the components of h: no 1 - cos^2, so precise for small alpha.
     PerSteradian distribution(Direction const& h) const {
-        float const slope2 = (square(h.x()) + square(h.y())) / square(alpha);
-        return PerSteradian(1 / (pi * square(alpha) * square(square(h.z()) + slope2)));
+        float const product = alpha_x * alpha_y;
+        float const sum = square(product * h.z()) + square(alpha_y * h.x()) + square(alpha_x * h.y());
+        return PerSteradian(product / (pi * square(sum / product)));
     }
 
     float lambda(Direction const& w) const {
         constexpr float steepest = 1e30f;  // keeps the quotient below finite for w in the surface
-        float const slope2 = std::min(steepest, square(alpha) * (square(w.x()) + square(w.y())) / square(w.z()));
+        float const slope2 = std::min(steepest, (square(alpha_x * w.x()) + square(alpha_y * w.y())) / square(w.z()));
         return slope2 / (2 * (std::sqrt(1 + slope2) + 1));  // (sqrt(1 + s) - 1) / 2 without cancellation
     }
-    float masking(Direction const& w) const { return 1 / (1 + lambda(w)); }
-    float masking_shadowing(Direction const& wo, Direction const& wi) const {
-        return 1 / (1 + lambda(wo) + lambda(wi));
-    }
+    float lambda(Direction const& w, Direction const&) const { return lambda(w); }
+    static float joint(float lambda_o, float lambda_i) { return lambda_o + lambda_i; }
 
-    // A normal visible from w (w.z > 0): stretch to the hemisphere, where the visible half vectors fill a spherical
-    // cap, sample the cap uniformly, and stretch back. [Dupuy 2023]
-    Direction visible_normal(Direction const& w, Sample2 u) const {
-        Direction const stretched = Vector(alpha * w.x(), alpha * w.y(), w.z()).normalized();
-        float const z = (1 - u.y) * (1 + stretched.z()) - stretched.z();
+    // Stretch to the hemisphere, where the visible half vectors fill a spherical cap, sample the cap uniformly, and
+    // stretch back. [Dupuy 2023]
+    Direction visible_normal(Direction const& w, Sample3 const& u) const {
+        Direction const stretched = Vector(alpha_x * w.x(), alpha_y * w.y(), w.z()).normalized();
+        float const z = (1 - u.direction.y) * (1 + stretched.z()) - stretched.z();
         float const r = std::sqrt(std::clamp(1 - z * z, 0.0f, 1.0f));
-        auto const [sine, cosine] = sine_cosine_of_turns(u.x);
+        auto const [sine, cosine] = sine_cosine_of_turns(u.direction.x);
         Vector const h = Vector(r * cosine, r * sine, z) + stretched;
-        return Vector(alpha * h.x(), alpha * h.y(), std::max(h.z(), 0.0f)).normalized();
+        return Vector(alpha_x * h.x(), alpha_y * h.y(), std::max(h.z(), least_height)).normalized();
     }
 
-    // Density of visible_normal(w) [1/sr of h].
-    PerSteradian visible_density(Direction const& w, Direction const& h) const {
-        return distribution(h) * (masking(w) * std::max(0.0f, w.dot(h)) / w.z());
+    // Of density D(h) h.z.
+    Direction normal(Sample2 u) const {
+        float const r = std::sqrt(u.y / (1 - u.y));
+        auto const [sine, cosine] = sine_cosine_of_turns(u.x);
+        return Vector(alpha_x * r * cosine, alpha_y * r * sine, 1).normalized();
     }
+
+  private:
+    static constexpr float least_height = 1e-12f;  // keeps the vector's square above 0; far below any real height
 };
 
 }  // namespace iride

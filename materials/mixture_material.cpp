@@ -12,7 +12,8 @@ MaterialTraits either(MaterialTraits const& a, MaterialTraits const& b) {
     return {.dispersive = a.dispersive || b.dispersive,
             .has_density = a.has_density || b.has_density,
             .textured = a.textured || b.textured,
-            .anisotropic = a.anisotropic || b.anisotropic};
+            .anisotropic = a.anisotropic || b.anisotropic,
+            .grain = a.anisotropic ? a.grain : b.grain};
 }
 
 MaterialTraits traits_of(std::vector<MixtureMaterial::Part> const& parts) {

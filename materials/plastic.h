@@ -99,7 +99,7 @@ struct RoughPlastic {
         float const share = coat.share_of_coat(R, T);
         Direction wi;
         if (u.lobe < share) {
-            Direction const h = ggx.visible_normal(wo, u.direction);
+            Direction const h = ggx.visible_normal(wo, u);
             wi = (2 * wo.dot(h) * h - wo).normalized();
         } else {
             wi = to_cosine_hemisphere(u.direction);

@@ -23,7 +23,7 @@ RoughnessMappedConductor::RoughnessMappedConductor(ComplexIndex const& index, Sc
     per_level_ = levels > 1 ? span / static_cast<float>(levels - 1) : 1;
     for (int i = 0; i < levels; ++i) {
         float const alpha = std::exp(first_ + per_level_ * static_cast<float>(i));
-        levels_.push_back({alpha, GgxAlbedo(Ggx{alpha})});
+        levels_.push_back({alpha, shared_facet_loss(Facets::ggx(alpha, alpha))});
     }
 }
 
@@ -34,13 +34,14 @@ RoughnessMappedConductor::Level const& RoughnessMappedConductor::nearest(float r
 
 Bsdf RoughnessMappedConductor::at(SurfacePoint const& point, Wavelengths const& w) const {
     float const roughness = roughness_.at(point);
-    if (levels_.empty()) return RoughConductor{n_.at(w), k_.at(w), {roughness}};
+    BareFresnel const fresnel{n_.at(w), k_.at(w)};
+    if (levels_.empty()) return RoughConductor{fresnel, roughness};
     Level const& level = nearest(roughness);
     // F_ms of materials/conductor.h, per lane.
     Lanes const mean = mean_fresnel_.at(w);
-    float const loss = level.albedo.mean_loss();
+    float const loss = level.loss->mean();
     Lanes const multiple = mean * mean * (1 - loss) / (Lanes(1) - mean * loss);
-    return InterreflectingConductor{n_.at(w), k_.at(w), multiple, {level.roughness}, &level.albedo};
+    return RoughConductor{fresnel, level.roughness, level.loss.get(), multiple};
 }
 
 }  // namespace iride

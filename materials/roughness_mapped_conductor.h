@@ -4,8 +4,10 @@
 // most where the map spans a factor of 6, by 6 % for .001 .. 1. The energy of each is exact.
 #pragma once
 
+#include <memory>
 #include <vector>
 
+#include "materials/facet_loss.h"
 #include "materials/material.h"
 #include "materials/surface_map.h"
 #include "spectral/complex_index.h"
@@ -22,7 +24,7 @@ class RoughnessMappedConductor final : public Material {
   private:
     struct Level {
         float roughness;
-        GgxAlbedo albedo;
+        std::shared_ptr<FacetLoss const> loss;
     };
     Level const& nearest(float roughness) const;
 

@@ -42,13 +42,14 @@ std::optional<std::vector<CoatingLayer>> read_coating(SceneBuilder& b, Fields& f
 }
 
 MaterialPointer read_coated_conductor(SceneBuilder& b, Fields& f, std::optional<ComplexIndex> const& metal,
-                                      float roughness) {
+                                      RoughSurface const& surface, bool multiple_scattering) {
     auto const layers = read_coating(b, f);
     if (metal) refuse_zero_index(b, f, *metal);
     if (!metal || !layers) return nullptr;
     MaterialPointer material;
     b.context.guarded(*f.find("coating"), f.path("coating"), [&] {
-        material = std::make_unique<CoatedConductorMaterial>(CoatingTable(*layers, *metal, b.scene.grid), roughness);
+        material = std::make_unique<CoatedConductorMaterial>(CoatingTable(*layers, *metal, b.scene.grid), surface,
+                                                             multiple_scattering, b.scene.grid);
     });
     return material;
 }
@@ -67,12 +68,12 @@ MaterialPointer read_conductor(SceneBuilder& b, Fields& f) {
     auto const ior = read_complex_index(b, f, "ior");
     if (JsonValue const* const value = f.find("roughness"); value && value->as<JsonObject>())
         return read_roughness_mapped(b, f, ior);
-    double const roughness = f.number("roughness", between(0, 1)).value_or(0);
-    if (roughness > 0 && roughness < 1e-3) f.error_at("roughness", "allowed: 0 (a mirror) or 0.001 .. 1 (GGX alpha)");
-    if (f.find("coating")) return read_coated_conductor(b, f, ior, static_cast<float>(roughness));
+    auto const surface = read_rough_surface(f);
     bool const multiple_scattering = f.boolean("multiple_scattering").value_or(true);
-    if (!ior || !(roughness == 0 || roughness >= 1e-3)) return nullptr;
-    return std::make_unique<ConductorMaterial>(*ior, static_cast<float>(roughness), multiple_scattering, b.scene.grid);
+    if (f.find("coating"))
+        return read_coated_conductor(b, f, ior, surface.value_or(RoughSurface()), multiple_scattering);
+    if (!ior || !surface) return nullptr;
+    return std::make_unique<ConductorMaterial>(*ior, *surface, multiple_scattering, b.scene.grid);
 }
 
 }  // namespace iride

@@ -8,6 +8,9 @@ namespace iride {
 
 using MaterialPointer = std::unique_ptr<Material const>;
 
+// Keys "roughness" or "facets", "distribution", "masking", "rotation_deg"; without the first two: smooth.
+std::optional<RoughSurface> read_rough_surface(Fields& fields);
+
 MaterialPointer read_diffuse(SceneBuilder& builder, Fields& fields);
 MaterialPointer read_black(SceneBuilder& builder, Fields& fields);
 MaterialPointer read_conductor(SceneBuilder& builder, Fields& fields);

@@ -37,6 +37,7 @@ MaterialPointer read_mixture(SceneBuilder& b, Fields& f) {
         return nullptr;
     }
     std::vector<MixtureMaterial::Part> parts;
+    Material const* brushed = nullptr;  // the last part with a grain: a mixture has one frame
     double sum = 0;
     bool good = true;
     for (std::size_t i = 0; i < array->size(); ++i) {
@@ -45,6 +46,11 @@ MaterialPointer read_mixture(SceneBuilder& b, Fields& f) {
         Material const* const material = read_part(b, g, "material");
         double const weight = g.required_number("weight", between(0, 1));
         g.finish();
+        if (material && material->traits.anisotropic) {
+            if (brushed && brushed->traits.grain != material->traits.grain)
+                g.error_at("material", "brushed another way than a part before: their 'rotation_deg' must be equal");
+            brushed = material;
+        }
         good = good && material && b.context.diagnostics.size() == errors_before;
         parts.push_back({material, weight});
         sum += weight;
