@@ -24,13 +24,10 @@ struct FresnelReflectance {
     Number unpolarised() const { return (s + p) / 2; }
 };
 
-// Real and imaginary part of sqrt((eta + i kappa)^2 - s^2), both >= 0. Whichever of the two would suffer from
-// cancellation is found from their product, a b = eta kappa.
+// The root a + i b with a, b >= 0 of a square: difference = a^2 - b^2, product = a b >= 0. Whichever of the two would
+// suffer from cancellation is found from the product.
 template <class Real>
-void refracted_normal_component(Real eta, Real kappa, Real sine2, Real& a, Real& b) {
-    Real const sine = std::sqrt(sine2);
-    Real const difference = (eta - sine) * (eta + sine) - kappa * kappa;  // a^2 - b^2
-    Real const product = eta * kappa;                                     // a b
+[[gnu::always_inline]] inline void root_of_square(Real difference, Real product, Real& a, Real& b) {
     Real const modulus = std::sqrt(difference * difference + 4 * product * product);
     Real const major = std::sqrt(Real(0.5) * (modulus + std::abs(difference)));
     Real const minor = major > 0 ? product / major : Real(0);
@@ -38,17 +35,35 @@ void refracted_normal_component(Real eta, Real kappa, Real sine2, Real& a, Real&
     b = difference >= 0 ? minor : major;
 }
 
-// One wavelength, any real type: the reference for the lanes, and what colorimetry integrates. cosine in [0, 1].
+// eta^2 - sin^2, right to the last digits also where the two are nearly the same, at the critical angle: whichever of
+// sin^2 and eta^2 - 1 is not below 1/2 there has an exact remainder, which is carried along. Every product is in an
+// fma(), so that no compiler can round another way.
 template <class Real>
-FresnelReflectance<Real> fresnel(Real cosine, Real eta, Real kappa) {
+[[gnu::always_inline]] inline Real above_critical(Real cosine, Real eta) {
+    Real const sine2 = std::fma(-cosine, cosine, Real(1)), more_sine2 = std::fma(-cosine, cosine, 1 - sine2);
+    Real const excess = std::fma(eta, eta, Real(-1)), more_excess = std::fma(eta, eta, -1 - excess);
+    return sine2 >= Real(0.5) ? std::fma(eta, eta, -sine2) - more_sine2
+                              : std::fma(cosine, cosine, excess) + more_excess;
+}
+
+// (Inlined by order: only then are the lanes' loops compiled to SIMD instructions.)
+//
+// One wavelength, any real type: the reference for the lanes, and what colorimetry integrates. cosine in [0, 1].
+// Relative error below 1e-12 in double, 1e-5 in float, of s and of the mean; of p but for a share 1e-3 of s.
+template <class Real>
+[[gnu::always_inline]] inline FresnelReflectance<Real> fresnel(Real cosine, Real eta, Real kappa) {
+    auto const sq = [](Real x) { return x * x; };
     Real const sine2 = std::max(Real(0), (1 - cosine) * (1 + cosine));
     Real a, b;
-    refracted_normal_component(eta, kappa, sine2, a, b);
-    Real const b2 = b * b, bc2 = b2 * cosine * cosine, ac = a * cosine;
-    auto const sq = [](Real x) { return x * x; };
-    Real const s = (sq(a - cosine) + b2) / (sq(a + cosine) + b2);
-    // At c = 0 and s^2 = 1 the second factor is 1 by itself; at c = 1, s = 0 it is 1 unless a = b = 0.
-    Real const p_over_s = (sq(ac - sine2) + bc2) / std::max(sq(ac + sine2) + bc2, std::numeric_limits<Real>::min());
+    root_of_square(above_critical(cosine, eta) - sq(kappa), eta * kappa, a, b);
+    // a - c: where these are nearly alike from a^2 - c^2 = eta^2 - 1 - kappa^2 + b^2.
+    Real const sum = a + cosine, alike = (std::fma(eta, eta, Real(-1)) - sq(kappa) + sq(b)) / sum;
+    Real const b2 = sq(b), bc2 = b2 * sq(cosine), ac = a * cosine;
+    // Denominators vanish along a boundary between equal media, which reflects nothing, and at c = 1 if a = b = 0.
+    constexpr Real tiny = std::numeric_limits<Real>::min();
+    Real const s = (sq(b < a && a < 2 * cosine ? alike : a - cosine) + b2) / std::max(sq(sum) + b2, tiny);
+    // The second factor is 1 by itself at c = 0, s^2 = 1, and at c = 1, s = 0 unless a = b = 0.
+    Real const p_over_s = (sq(ac - sine2) + bc2) / std::max(sq(ac + sine2) + bc2, tiny);
     return {s, s * p_over_s};
 }
 
@@ -60,8 +75,9 @@ struct WaveMedium {
 };
 template <class Real>
 WaveMedium<Real> wave_medium(std::complex<Real> N, Real S2) {
+    Real const n = N.real(), k = N.imag(), S = std::sqrt(S2);
     Real a, b;
-    refracted_normal_component(N.real(), N.imag(), S2, a, b);
+    root_of_square((n - S) * (n + S) - k * k, n * k, a, b);
     return {N, {a, b}};
 }
 
