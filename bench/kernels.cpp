@@ -72,6 +72,27 @@ void tabulate_loss(benchmark::State& state) {
 }
 BENCHMARK(tabulate_loss)->ArgName("alpha_permille")->Arg(1)->Arg(50)->Arg(1000)->Unit(benchmark::kMillisecond);
 
+// Reflectance of a metal under so many films, for all lanes. [ns]
+void coating(benchmark::State& state) {
+    auto const constant = [](double n, double k) {
+        return ComplexIndex{SpectralFunction::constant(n), SpectralFunction::constant(k)};
+    };
+    WavelengthGrid const grid = WavelengthGrid::covering(visible_range);
+    std::vector<CoatingLayer> layers;
+    for (int i = 0; i < state.range(0); ++i) layers.push_back({constant(i % 2 ? 1.46 : 2.35, 0), i % 2 ? 94.0 : 58.0});
+    CoatingTable const table(layers, constant(.2, 3), grid);
+    WavelengthSampler const sampler(visible_range, SpectralFunction::constant(1), grid);
+    constexpr std::uint32_t packets = 64;
+    std::vector<LaneRegister> rows;
+    for (std::uint32_t i = 0; i < packets; ++i)
+        rows.push_back(table.row_of(sampler.sample((static_cast<float>(i) + .5f) / packets)));
+    for (std::uint32_t i = 0; auto _ : state) {
+        float const cosine = static_cast<float>(i * 37 % 1000) / 1000;
+        benchmark::DoNotOptimize(table.reflectance(rows[i++ % packets], cosine));
+    }
+}
+BENCHMARK(coating)->ArgName("films")->Arg(0)->Arg(1)->Arg(2)->Arg(20);
+
 }  // namespace
 
 BENCHMARK_MAIN();

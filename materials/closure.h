@@ -5,6 +5,7 @@
 
 #include <variant>
 
+#include "materials/coated_dielectric.h"
 #include "materials/conductor.h"
 #include "materials/dielectric.h"
 #include "materials/heuristic.h"
@@ -21,8 +22,8 @@ class Bsdf {
     using Model =
         std::variant<Black, Lambert, SmoothConductor, RoughConductor, RoughMetal<BareFresnel, FacetsOfMaterial>,
                      SmoothCoatedConductor, RoughCoatedConductor, RoughMetal<CoatedFresnel, FacetsOfMaterial>,
-                     SmoothDielectric, RoughDielectric<Ggx>, RoughDielectric<FacetsOfMaterial>, ThinSlab, OrenNayar,
-                     SmoothPlastic, RoughPlastic, Phong, BlinnPhong, ModifiedBlinnPhong>;
+                     SmoothDielectric, RoughDielectric<Ggx>, RoughDielectric<FacetsOfMaterial>, SmoothCoatedDielectric,
+                     ThinSlab, OrenNayar, SmoothPlastic, RoughPlastic, Phong, BlinnPhong, ModifiedBlinnPhong>;
 
     template <BsdfModel T>
     Bsdf(T const& model) : model_(model) {}

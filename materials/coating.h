@@ -1,51 +1,63 @@
 // SPDX-License-Identifier: Apache-2.0
-// A coated metal for the sampling loop: the unpolarised reflectance of a thin-film stack, tabulated over wavelength and
-// sqrt(cosine), linear between. The steps are halved until the middle of every cell is right to `coating_tolerance`.
-// sqrt(cosine): near grazing, where metals change fastest, its steps are the finest.
+// A coated surface for the sampling loop: what a stack of thin films reflects and transmits of unpolarised light, at
+// each lane's wavelength, by the recursion of thin_film.h in single precision. The amplitude is kept as a quotient,
+// r = P / Q, so that no layer divides; a and b are q (s) or q / N^2 (p) above and below a boundary:
+//   P <- (a - b) Q + (a + b) e^2 P,   Q <- (a + b) Q + (a - b) e^2 P
+// Exact but for rounding, so that no film is too thick or too sharp for a table. [Macleod 2017, ch. 2]
 #pragma once
 
 #include <vector>
 
-#include "materials/thin_film.h"
-#include "spectral/complex_index.h"
-#include "spectral/wavelengths.h"
+#include "materials/plane_stack.h"
+#include "spectral/spectrum.h"
 
 namespace iride {
 
 inline constexpr std::size_t max_coating_layers = 32;
-inline constexpr double coating_tolerance = 5e-4;  // of reflectance, in each of the two directions of the table
-
-struct CoatingLayer {
-    ComplexIndex index;
-    double thickness_nm;
-};
+// Error of R and T where the layers' optical thicknesses, n times thickness, sum up to 10 um. Beyond, the wavelength's
+// own rounding shows in the narrowest fringes.
+inline constexpr double coating_tolerance = 5e-4;
+// Optical thickness of one layer beyond which no light of a lamp is coherent.
+inline constexpr double most_optical_thickness_nm = 1e5;
 
 // Layers from outside to inside, in air (n = 1). Unpolarised.
 double coated_reflectance(std::span<CoatingLayer const> layers, ComplexIndex const& substrate, double wavelength_nm,
                           double cosine);
 
+struct LanePower {
+    Lanes R, T;  // R + T <= 1
+};
+
+// The indices of a coating's media at the render's wavelengths.
 class CoatingTable {
   public:
-    // Throws InputError where interference changes too fast with wavelength or angle to be tabulated: for layers too
-    // thick to be coherent.
-    CoatingTable(std::span<CoatingLayer const> layers, ComplexIndex const& substrate, WavelengthGrid const& grid);
+    // `outside` is transparent. Throws InputError for a layer thicker than is coherent, unless it absorbs what enters.
+    CoatingTable(std::span<CoatingLayer const> layers, ComplexIndex const& substrate, WavelengthGrid const& grid,
+                 ComplexIndex const& outside = {});
 
-    // Where the packet's wavelengths lie in the table, counted in rows. One register, for the closure's size; in single
-    // precision the place is right to 1/1000 row, the reflectance to 1e-4.
-    LaneRegister row_of(Wavelengths const& wavelengths) const;
-    // cosine in [0, 1]; below it, or NaN, as 0: no reading outside the table.
-    Lanes reflectance(LaneRegister row, float cosine) const;
-
-    // 2 int R mu dmu at a wavelength that many nanometres from the grid's first.
+    // The packet's wavelengths, from the first of the grid [nm]. One register, for the closure's size.
+    LaneRegister row_of(Wavelengths const& wavelengths) const {
+        return __builtin_convertvector(wavelengths.cell, LaneRegister) + wavelengths.fraction;
+    }
+    // For light from outside, or from inside, which then is transparent; cosine there, in [0, 1]; below it, or NaN,
+    // as 0.
+    LanePower power(LaneRegister row, float cosine, bool from_inside = false) const;
+    Lanes reflectance(LaneRegister row, float cosine) const { return power(row, cosine).R; }
+    // 2 int R mu dmu from outside, to 1e-3, at a wavelength that many nanometres from the grid's first.
     double mean_reflectance(double nm) const;
 
-    int rows() const { return rows_; }
-    int columns() const { return columns_; }
+    PlaneStack const& stack() const { return stack_; }
 
   private:
-    int rows_, columns_;        // points in wavelength, in sqrt(cosine)
-    int rows_per_nm_;           // a power of two
-    std::vector<float> value_;  // [columns][rows]
+    struct Medium {
+        Reflectance re, im;  // of N^2
+        float thickness_nm;  // of a layer
+    };
+
+    PlaneStack stack_;
+    std::vector<Medium> media_;  // from outside to inside
+    float first_nm_;
+    int last_cell_;
 };
 
 // The Fresnel term of a coated conductor at the packet's wavelengths.
@@ -55,25 +67,5 @@ struct CoatedFresnel {
 
     Lanes operator()(float cosine) const { return table->reflectance(row, cosine); }
 };
-
-inline LaneRegister CoatingTable::row_of(Wavelengths const& w) const {
-    return (__builtin_convertvector(w.cell, LaneRegister) + w.fraction) * static_cast<float>(rows_per_nm_);
-}
-
-inline Lanes CoatingTable::reflectance(LaneRegister row, float cosine) const {
-    float const x = std::sqrt(std::max(0.0f, cosine)) * static_cast<float>(columns_ - 1);
-    int const column = std::min(static_cast<int>(x), columns_ - 2);
-    float const u = x - static_cast<float>(column);
-    float const* const left = value_.data() + static_cast<std::size_t>(column) * static_cast<std::size_t>(rows_);
-    float const* const right = left + rows_;
-    Lanes result;
-    for (int i = 0; i < lane_count; ++i) {
-        int const cell = std::min(static_cast<int>(row[i]), rows_ - 2);
-        float const lower = left[cell] + u * (right[cell] - left[cell]);
-        float const upper = left[cell + 1] + u * (right[cell + 1] - left[cell + 1]);
-        result.lane[i] = lower + (row[i] - static_cast<float>(cell)) * (upper - lower);
-    }
-    return result;
-}
 
 }  // namespace iride

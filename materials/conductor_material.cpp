@@ -22,6 +22,7 @@ ConductorMaterial::ConductorMaterial(ComplexIndex const& index, RoughSurface sur
     : Material({.has_density = !surface.facets.is_smooth(),
                 .anisotropic = surface.facets.is_anisotropic(),
                 .grain = surface.grain()}),
+      plane_{.inside = index},
       n_(index.n, grid),
       k_(index.k, grid),
       facets_(std::move(surface.facets)) {

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "materials/material.h"
-#include "spectral/complex_index.h"
+#include "materials/plane_stack.h"
 
 namespace iride {
 
@@ -38,8 +38,10 @@ class ConductorMaterial : public Material {
         if (facets_.is_smooth()) return SmoothConductor{n_.at(w), k_.at(w)};
         return interreflection_.closure(BareFresnel{n_.at(w), k_.at(w)}, facets_, w);
     }
+    PlaneStack const* plane() const override { return &plane_; }
 
   private:
+    PlaneStack plane_;
     Index n_, k_;
     Facets facets_;
     Interreflection interreflection_;
@@ -55,6 +57,7 @@ class CoatedConductorMaterial : public Material {
         if (facets_.is_smooth()) return SmoothCoatedConductor{fresnel};
         return interreflection_.closure(fresnel, facets_, w);
     }
+    PlaneStack const* plane() const override { return &table_.stack(); }
 
   private:
     CoatingTable table_;

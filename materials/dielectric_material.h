@@ -3,6 +3,7 @@
 #pragma once
 
 #include "materials/material.h"
+#include "materials/plane_stack.h"
 
 namespace iride {
 
@@ -12,7 +13,8 @@ class DielectricMaterial : public Material {
         : Material({.two_sided = false,
                     .dispersive = !body.inside.n.is_constant() || !body.outside.n.is_constant(),
                     .has_density = false}),
-          body_(std::move(body)) {}
+          body_(std::move(body)),
+          plane_{.outside = body_.outside.index, .inside = body_.inside.index} {}
     Bsdf at(SurfacePoint const& point, Wavelengths const& w) const override {
         return at_boundary(point, w, body_.outside.n.at(w));
     }
@@ -21,8 +23,11 @@ class DielectricMaterial : public Material {
     }
     Body const* body() const override { return &body_; }
 
+    PlaneStack const* plane() const override { return &plane_; }
+
   private:
     Body body_;
+    PlaneStack plane_;
 };
 
 }  // namespace iride

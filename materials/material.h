@@ -9,6 +9,8 @@
 
 namespace iride {
 
+struct PlaneStack;
+
 // What is known of a material before it is hit.
 struct MaterialTraits {
     bool two_sided = true;  // acts alike on both sides: the frame is turned to wo; dielectrics tell inside from outside
@@ -30,6 +32,8 @@ class Material {
     virtual Bsdf at_boundary(SurfacePoint const& point, Wavelengths const& wavelengths, Lanes /*outside*/) const {
         return at(point, wavelengths);
     }
+    // The plane surface that the material is, or that its facets are, for colorimetry; null if it is no such thing.
+    virtual PlaneStack const* plane() const { return nullptr; }
 
     MaterialTraits const traits;
 

@@ -9,6 +9,7 @@
 #include <array>
 #include <optional>
 
+#include "spectral/complex_index.h"
 #include "spectral/spectrum.h"
 
 namespace iride {
@@ -19,6 +20,7 @@ struct Medium {
     Index n{1.0f};
     Absorption sigma_a{};
     bool absorbs = false;
+    ComplexIndex index{};  // as it was given
 
     // Of radiance, along `distance` metres, which may be infinite.
     Throughput transmittance(float distance, Wavelengths const& wavelengths) const {

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Metals, bare and coated, as a scene file gives them.
-#include <fmt/format.h>
-
 #include "materials/conductor_material.h"
 #include "materials/roughness_mapped_conductor.h"
 #include "scene/material_readers.h"
@@ -11,39 +9,9 @@ namespace iride {
 
 namespace {
 
-// Where a plane wave is to be followed through, n = 0 is no medium.
-void refuse_zero_index(SceneBuilder& b, Fields& f, ComplexIndex const& index) {
-    if (!(index.n.smallest(b.scene.wavelengths) > 0))
-        f.error_at("ior", "n reaches 0, under a coating or in it: allowed: above 0");
-}
-
-// Layers from outside to inside; nothing after an error.
-std::optional<std::vector<CoatingLayer>> read_coating(SceneBuilder& b, Fields& f) {
-    JsonValue const& value = *f.find("coating");
-    JsonArray const* const array = value.as<JsonArray>();
-    if (!array || array->empty() || array->size() > max_coating_layers) {
-        f.error_at("coating", fmt::format("found {}, but an array of 1 .. {} layers is wanted", value.described(),
-                                          max_coating_layers));
-        return std::nullopt;
-    }
-    std::size_t const errors_before = b.context.diagnostics.size();
-    std::vector<CoatingLayer> layers;
-    for (std::size_t i = 0; i < array->size(); ++i) {
-        Fields layer(b.context, (*array)[i], fmt::format("{}[{}]", f.path("coating"), i));
-        auto const ior = read_complex_index(b, layer, "ior");
-        double const thickness = layer.required_number("thickness_nm", at_least(0));
-        layer.finish();
-        if (!ior) continue;
-        refuse_zero_index(b, layer, *ior);
-        layers.push_back({*ior, thickness});
-    }
-    if (b.context.diagnostics.size() > errors_before) return std::nullopt;
-    return layers;
-}
-
 MaterialPointer read_coated_conductor(SceneBuilder& b, Fields& f, std::optional<ComplexIndex> const& metal,
                                       RoughSurface const& surface, bool multiple_scattering) {
-    auto const layers = read_coating(b, f);
+    auto const layers = read_films(b, f, "coating");
     if (metal) refuse_zero_index(b, f, *metal);
     if (!metal || !layers) return nullptr;
     MaterialPointer material;

@@ -7,6 +7,7 @@
 namespace iride {
 
 MaterialPointer read_dielectric(SceneBuilder& b, Fields& f) {
+    if (f.find("coating")) return read_coated_dielectric(b, f);
     constexpr int most = 1000000;
     auto const inside = read_medium(b, f, "ior");
     bool const outside_is_stated = f.find("exterior_ior");

@@ -15,9 +15,11 @@ namespace {
 constexpr auto table = std::to_array<MaterialEntry>({
     {"diffuse", "Lambert's law, on both sides", read_diffuse},
     {"conductor", "a metal by its n + ik, smooth or GGX rough, bare or under thin films", read_conductor},
-    {"dielectric", "a smooth transparent body, dispersive where its index is, absorbing, nested by priority",
+    {"dielectric",
+     "a smooth transparent body, dispersive where its index is, absorbing, nested by priority, or under thin films",
      read_dielectric},
     {"slab", "a thin pane of a transparent medium, as one surface", read_slab},
+    {"film", "thin films between equal media: a soap film", read_film},
     {"black", "absorbs everything", read_black},
     {"oren-nayar", "a rough diffuse surface", read_oren_nayar},
     {"plastic", "a dielectric coat, smooth or GGX rough, over a diffuse base", read_plastic},

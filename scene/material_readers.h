@@ -2,6 +2,7 @@
 // The readers of the material families, for the table in material_reader.cpp. Null after an error.
 #pragma once
 
+#include "materials/plane_stack.h"
 #include "scene/readers.h"
 
 namespace iride {
@@ -16,6 +17,7 @@ MaterialPointer read_black(SceneBuilder& builder, Fields& fields);
 MaterialPointer read_conductor(SceneBuilder& builder, Fields& fields);
 MaterialPointer read_dielectric(SceneBuilder& builder, Fields& fields);
 MaterialPointer read_slab(SceneBuilder& builder, Fields& fields);
+MaterialPointer read_film(SceneBuilder& builder, Fields& fields);
 MaterialPointer read_oren_nayar(SceneBuilder& builder, Fields& fields);
 MaterialPointer read_plastic(SceneBuilder& builder, Fields& fields);
 MaterialPointer read_mixture(SceneBuilder& builder, Fields& fields);
@@ -33,5 +35,12 @@ inline constexpr double largest_transparent_k = 1e-3;
 std::optional<Medium> read_medium(SceneBuilder& builder, Fields& fields, std::string const& key);
 // The same of the index alone.
 std::optional<Medium> read_medium_of_index(SceneBuilder& builder, Fields& fields, std::string const& key);
+
+// Thin films from outside to inside; nothing after an error.
+std::optional<std::vector<CoatingLayer>> read_films(SceneBuilder& builder, Fields& fields, std::string const& key);
+// Where a plane wave is to be followed through, n = 0 is no medium.
+void refuse_zero_index(SceneBuilder& builder, Fields& fields, ComplexIndex const& index);
+// A dielectric with "coating".
+MaterialPointer read_coated_dielectric(SceneBuilder& builder, Fields& fields);
 
 }  // namespace iride

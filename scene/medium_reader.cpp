@@ -64,6 +64,7 @@ Medium medium_of(SceneBuilder& b, ComplexIndex const& index, Coefficient const& 
     Medium medium{Index(index.n, b.scene.grid)};
     if (absorbs) medium.sigma_a = Absorption(SpectralFunction(std::move(sigma_a), Outside::hold), b.scene.grid);
     medium.absorbs = absorbs;
+    medium.index = index;
     return medium;
 }
 
