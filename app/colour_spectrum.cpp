@@ -9,7 +9,7 @@
 
 #include "app/colour.h"
 #include "app/given_spectra.h"
-#include "app/plot.h"
+#include "app/palette.h"
 #include "base/diagnostics.h"
 #include "colour/description.h"
 #include "colour/illuminant.h"
@@ -81,16 +81,6 @@ void check_finite(GivenSpectrum const& s, ColourDescription const& d) {
         if (!std::isfinite(v)) throw InputError({}, s.function.name(), "values too large or too small for a colour");
 }
 
-// Dark, distinguishable colours for lines, after Okabe and Ito's palette for all kinds of colour vision.
-constexpr std::array<PlotColour, 8> palette{{{0, 0, 0},
-                                             {0, .45, .70},
-                                             {.84, .37, 0},
-                                             {0, .62, .45},
-                                             {.80, .47, .65},
-                                             {.90, .62, 0},
-                                             {.34, .71, .91},
-                                             {.6, .6, .6}}};
-
 std::vector<PlotPoint> curve_of(GivenSpectrum const& s, WavelengthRange const& shown) {
     double const scale = s.is_light ? 1 / s.function.largest(shown) : 1;
     WavelengthRange const own = s.function.defined_on();
@@ -119,8 +109,9 @@ void plot(std::vector<GivenSpectrum> const& spectra, std::string const& file) {
     Plot page(1400, 900, {shown.min_nm, shown.max_nm, 50, "Wavelength / nm"}, {0, most * 1.02, 0.1, title},
               static_cast<int>(beside_px + letter_px * static_cast<double>(longest)));
     for (std::size_t i = 0; i < spectra.size(); ++i)
-        page.line(curve_of(spectra[i], shown), {palette[i % palette.size()], i < 2 * palette.size() ? 3.0 : 1.5,
-                                                i / palette.size() % 2 == 1, spectra[i].function.name()});
+        page.line(curve_of(spectra[i], shown),
+                  {line_palette[i % line_palette.size()], i < 2 * line_palette.size() ? 3.0 : 1.5,
+                   i / line_palette.size() % 2 == 1, spectra[i].function.name()});
     page.legend();
     page.write(file);
 }

@@ -24,5 +24,6 @@ Command add_plan(CLI::App& app);
 Command add_radiosity(CLI::App& app);
 Command add_compare(CLI::App& app);
 Command add_colour(CLI::App& app);
+Command add_material(CLI::App& app);
 
 }  // namespace iride

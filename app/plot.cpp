@@ -32,6 +32,26 @@ std::shared_ptr<cairo_surface_t> surface_of(std::vector<std::uint32_t>& pixels, 
             cairo_surface_destroy};
 }
 
+std::shared_ptr<cairo_t> white_page(int width, int height) {
+    std::shared_ptr<cairo_surface_t> const surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height),
+                                                   cairo_surface_destroy);
+    std::shared_ptr<cairo_t> page{cairo_create(surface.get()), cairo_destroy};
+    cairo_set_source_rgb(page.get(), 1, 1, 1);
+    cairo_paint(page.get());
+    cairo_select_font_face(page.get(), "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
+    return page;
+}
+
+void write_png(cairo_t* page, std::filesystem::path const& path) {
+    AtomicFile file(path);
+    cairo_surface_t* const surface = cairo_get_target(page);
+    cairo_surface_flush(surface);
+    cairo_status_t const status = cairo_surface_write_to_png(surface, file.temporary().c_str());
+    if (status != CAIRO_STATUS_SUCCESS)
+        throw InputError({path.string()}, "", fmt::format("cannot be written: {}", cairo_status_to_string(status)));
+    file.commit();
+}
+
 std::string number(double value, double tick) {
     int const decimals = std::max(0, static_cast<int>(-std::floor(std::log10(tick) + 1e-9)));
     return fmt::format("{:.{}f}", std::abs(value) < tick / 2 ? 0.0 : value, decimals);
@@ -54,14 +74,7 @@ void check_picture_name(std::string const& option, std::filesystem::path const& 
 
 Plot::Plot(int width, int height, PlotAxis x, PlotAxis y, int right)
     : width_(width), height_(height), x_(std::move(x)), y_(std::move(y)) {
-    std::shared_ptr<cairo_surface_t> const surface(
-        cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(left) + width + right,
-                                   static_cast<int>(top + bottom) + height),
-        cairo_surface_destroy);
-    cairo_ = {cairo_create(surface.get()), cairo_destroy};
-    cairo_set_source_rgb(cairo_.get(), 1, 1, 1);
-    cairo_paint(cairo_.get());
-    cairo_select_font_face(cairo_.get(), "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
+    cairo_ = white_page(static_cast<int>(left) + width + right, static_cast<int>(top + bottom) + height);
     cairo_set_line_join(cairo_.get(), CAIRO_LINE_JOIN_ROUND);
     axes();
 }
@@ -109,6 +122,7 @@ void Plot::axes() {
     };
     double const right = left + width_, low = top + height_;
     auto const ticks = [](PlotAxis const& axis, auto const& draw) {
+        if (!(axis.tick > 0)) return;
         constexpr double rounding = 1e-9;  // of a tick
         for (double i = std::ceil(axis.min / axis.tick - rounding); i * axis.tick <= axis.max + rounding * axis.tick;
              ++i)
@@ -127,6 +141,7 @@ void Plot::axes() {
         text(words, left - tick_px - gap - text_width(words), y + font_size * 0.36);
     });
     cairo_set_font_size(c, title_size);
+    cairo_set_source_rgb(c, 0, 0, 0);
     text(x_.title, left + (width_ - text_width(x_.title)) / 2, low + bottom - 24);
     cairo_save(c);
     cairo_translate(c, title_size + 12, top + (height_ + text_width(y_.title)) / 2);
@@ -134,8 +149,8 @@ void Plot::axes() {
     text(y_.title, 0, 0);
     cairo_restore(c);
     cairo_set_font_size(c, font_size);
-    cairo_set_source_rgb(c, 0, 0, 0);
     cairo_set_line_width(c, 1.5);
+    if (!(x_.tick > 0 || y_.tick > 0)) return;
     cairo_rectangle(c, left, top, width_, height_);
     cairo_stroke(c);
 }
@@ -307,14 +322,22 @@ void Plot::legend(std::optional<PlotPoint> const& top_left) {
     }
 }
 
-void Plot::write(std::filesystem::path const& path) {
-    AtomicFile file(path);
-    cairo_surface_t* const surface = cairo_get_target(cairo_.get());
-    cairo_surface_flush(surface);
-    cairo_status_t const status = cairo_surface_write_to_png(surface, file.temporary().c_str());
-    if (status != CAIRO_STATUS_SUCCESS)
-        throw InputError({path.string()}, "", fmt::format("cannot be written: {}", cairo_status_to_string(status)));
-    file.commit();
+void Plot::write(std::filesystem::path const& path) { write_png(cairo_.get(), path); }
+
+PlotPage::PlotPage(int width, int height) : cairo_(white_page(width, height)) {}
+
+void PlotPage::place(Plot const& plot, int x, int y) {
+    cairo_set_source_surface(cairo_.get(), cairo_get_target(plot.cairo_.get()), x, y);
+    cairo_paint(cairo_.get());
 }
+
+void PlotPage::text(std::string const& words, double x, double y) {
+    cairo_set_font_size(cairo_.get(), title_size);
+    cairo_set_source_rgb(cairo_.get(), 0, 0, 0);
+    cairo_move_to(cairo_.get(), x, y);
+    cairo_show_text(cairo_.get(), words.c_str());
+}
+
+void PlotPage::write(std::filesystem::path const& path) { write_png(cairo_.get(), path); }
 
 }  // namespace iride

@@ -24,7 +24,7 @@ struct PlotColour {
 };
 
 struct PlotAxis {
-    double min, max, tick;
+    double min, max, tick;  // tick 0: no axis is drawn, only the title
     std::string title;
 };
 
@@ -43,8 +43,7 @@ class Plot {
     // Width and height of the area between the axes, in pixels; `right` pixels of margin beside it for a legend.
     Plot(int width, int height, PlotAxis x, PlotAxis y, int right = 40);
     ~Plot();
-    Plot(Plot const&) = delete;
-    Plot& operator=(Plot const&) = delete;
+    Plot(Plot&&) = default;
 
     // Fills a polygon with a colour that depends on the place, pixel by pixel.
     void fill(std::span<PlotPoint const> polygon, std::function<PlotColour(PlotPoint const&)> const& colour);
@@ -76,6 +75,7 @@ class Plot {
     PlotPoint pixel(PlotPoint const& p) const;
     bool is_free(Box const& box) const;
     double text_width(std::string const& text) const;
+    friend class PlotPage;
     void text(std::string const& text, double x, double y) const;
     void halo_text(std::string const& text, double x, double y) const;
     void path(std::span<PlotPoint const> points) const;
@@ -88,6 +88,19 @@ class Plot {
     std::shared_ptr<struct _cairo> cairo_;
     std::vector<Box> taken_;
     std::vector<Stroke> entries_;
+};
+
+// Several plots on one page, as PNG.
+class PlotPage {
+  public:
+    PlotPage(int width, int height);
+    // With the plot's top left corner at (x, y), in pixels from the page's.
+    void place(Plot const& plot, int x, int y);
+    void text(std::string const& words, double x, double y);
+    void write(std::filesystem::path const& path);
+
+  private:
+    std::shared_ptr<struct _cairo> cairo_;
 };
 
 // Refuses a name that does not end in .png or cannot be written, before any work. Throws InputError.

@@ -126,6 +126,18 @@ Outside outside_of(SpectralQuantity quantity) {
     }
 }
 
+// The file that holds an index of refraction.
+std::filesystem::path index_path(std::string const& name, std::filesystem::path const& folder) {
+    auto const entry = catalogue().find(name);
+    if (entry != catalogue().end()) {
+        if (!is_index(entry->second.column)) fail(fmt::format("'{}' is no index of refraction", name));
+        if (entry->second.column == "k") fail(fmt::format("'{}' holds k alone, but n and k are wanted", name));
+        return data_folder() / entry->second.file;
+    }
+    if (!std::filesystem::exists(folder / name)) fail(unknown(name, SpectralQuantity::complex_index));
+    return folder / name;
+}
+
 }  // namespace
 
 std::filesystem::path data_folder() {
@@ -157,16 +169,7 @@ std::optional<SpectralQuantity> stated_quantity(std::string const& name, std::fi
 }
 
 ComplexIndex load_complex_index(std::string const& name, std::filesystem::path const& folder) {
-    auto const entry = catalogue().find(name);
-    std::filesystem::path path = folder / name;
-    if (entry != catalogue().end()) {
-        if (!is_index(entry->second.column)) fail(fmt::format("'{}' is no index of refraction", name));
-        if (entry->second.column == "k") fail(fmt::format("'{}' holds k alone, but n and k are wanted", name));
-        path = data_folder() / entry->second.file;
-    } else if (!std::filesystem::exists(path)) {
-        fail(unknown(name, SpectralQuantity::complex_index));
-    }
-    SpectrumFile const file = read_spectrum_file(path);
+    SpectrumFile const file = read_spectrum_file(index_path(name, folder));
     ComplexIndex index;
     if (!file.formula.empty()) {
         index.n = SpectralFunction(file.formula.front(), Outside::error, name);
@@ -175,6 +178,12 @@ ComplexIndex load_complex_index(std::string const& name, std::filesystem::path c
     index.n = SpectralFunction(table_of(file, "n"), Outside::error, name);
     if (file.column.contains("k")) index.k = SpectralFunction(table_of(file, "k"), Outside::error, name);
     return index;
+}
+
+std::string index_source(std::string const& name, std::filesystem::path const& folder) {
+    std::filesystem::path const path = index_path(name, folder);
+    std::string const source = read_spectrum_file(path).source;
+    return source.empty() ? path.string() : source;
 }
 
 SpectralFunction load_spectrum(std::string const& name, SpectralQuantity quantity,

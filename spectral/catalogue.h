@@ -62,6 +62,8 @@ std::optional<SpectralQuantity> stated_quantity(std::string const& name, std::fi
 // (relative to `folder`), a column of a file with several as "file.csv:column". Throws InputError: unknown name (with
 // the nearest), wrong quantity, missing file.
 ComplexIndex load_complex_index(std::string const& name, std::filesystem::path const& folder = {});
+// Where such an index comes from: the file's "source" line, or, if it has none, its path.
+std::string index_source(std::string const& name, std::filesystem::path const& folder = {});
 SpectralFunction load_spectrum(std::string const& name, SpectralQuantity quantity,
                                std::filesystem::path const& folder = {});
 // Several at once: every column of a file, every name of a group of the catalogue ("colorchecker"), or one as above.
