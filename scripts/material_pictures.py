@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Render docs/materials/NAME.png for every entry of scripts/material_pictures.json: a sphere of that material on a chequered
-floor under a D65 lamp and sky. An entry is NAME: MATERIAL, as a scene file has it, or NAME: {"material": ..., "shapes":
+floor under a D65 lamp and sky; and the page of gold by angle. An entry is NAME: MATERIAL, as a scene file has it, or NAME: {"material": ..., "shapes":
 [...], "materials": {...}, "sphere": {...}} to add to the scene or to change the sphere.
 
     scripts/material_pictures.py [PROGRAM] [NAME ...]     all of them, or those named; PROGRAM is build/release/iride
@@ -61,6 +61,8 @@ def main():
             subprocess.run([program, "render", path, "-o", pathlib.Path(folder) / "out.exr", "--preview",
                             FOLDER / f"{name}.png", "--spp", str(SAMPLES), "--quiet"], check=True)
         print(name)
+    if not arguments:
+        subprocess.run([program, "material", "Au", "--plot", FOLDER / "gold-by-angle.png"], check=True, stdout=subprocess.DEVNULL)
 
 
 if __name__ == "__main__":
