@@ -3,7 +3,7 @@
 //   D(h)      = exp(-(h.x / (ax h.z))^2 - (h.y / (ay h.z))^2) / (pi ax ay h.z^4)
 //   Lambda(w) = exp(-a^2) / (2 a sqrt(pi)) - erfc(a) / 2,      a = w.z / sqrt((ax w.x)^2 + (ay w.y)^2)
 // Visible normals: in the stretched frame the slope x away from w has density ~ (cos w - x sin w)+ exp(-x^2), drawn by
-// inversion, the slope across it is Gaussian.       [Heitz 2014, sec. 5.3 and supplement] [Jakob 2014]
+// inversion, the slope across it is Gaussian.       [HeitzEon 2014] [Jakob 2014]
 #pragma once
 
 #include "base/error_function.h"

@@ -115,6 +115,19 @@ struct StretchedView {
     bool is_symmetric() const { return m12 == 0; }
 };
 
+StretchedView::StretchedView(FacetComponent const& c, Direction const& w)
+    : ax(static_cast<double>(c.alpha_x)), ay(static_cast<double>(c.alpha_y)) {
+    auto const x = ax * static_cast<double>(w.x()), y = ay * static_cast<double>(w.y());
+    auto const z = static_cast<double>(w.z()), length = std::hypot(x, y);
+    tangent = length / z;
+    size = std::hypot(length, z) / z;
+    ex = length > 0 ? x / length : 1;
+    ey = length > 0 ? y / length : 0;
+    m11 = square(ax * ex) + square(ay * ey);
+    m12 = ex * ey * (ay - ax) * (ay + ax);
+    m22 = square(ax * ey) + square(ay * ex);
+}
+
 // The two q of facets (p, q) with this tan^2 of the slope; NaN if there are none.
 std::pair<double, double> across_at(StretchedView const& v, double p, double tan2) {
     double const centre = -v.m12 * p, root = std::sqrt(centre * centre - v.m22 * (v.m11 * p * p - tan2));

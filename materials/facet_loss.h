@@ -6,7 +6,7 @@
 //   mean    = (1 / pi) int loss(w) w.z dw over the hemisphere
 // Mirrors, or boundaries to a medium of relative index eta, where wi is reflected with probability F, else refracted.
 // Piecewise linear in the cosine, and in the azimuth for anisotropic facets; made by quadrature at load. |table - loss|
-// < 5e-4 (tested); mean and sample() are exact for the table, so that is also the error of the energy.
+// < 2e-3 (tested); mean and sample() are exact for the table, so that is also the error of the energy.
 // [Kulla 2017] [Heitz 2014]
 #pragma once
 

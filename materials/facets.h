@@ -5,7 +5,7 @@
 //              from component j with probability w_j (1 + Lambda_j) / (1 + Lambda): exact
 //   v-cavity:  1 + Lambda(w, h) = max(1, <w, h> / (2 h.z w.z)), the larger of two Lambdas counts: the classic G =
 //              min(1, 2 h.z wo.z / <wo, h>, 2 h.z wi.z / <wi, h>). Each facet has its mirror image across the cavity;
-//              of the two the one is seen in proportion to its projected area     [Cook 1982] [Heitz 2014]
+//              of the two the one is seen in proportion to its projected area     [Cook 1982] [HeitzEon 2014]
 #pragma once
 
 #include <compare>

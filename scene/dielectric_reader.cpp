@@ -17,8 +17,23 @@ MaterialPointer read_dielectric(SceneBuilder& b, Fields& f) {
     if (priority && outside_is_stated)
         f.error_at("exterior_ior",
                    "found together with 'priority', by which a body finds what is around it; allowed: one of them");
-    if (!inside || !outside) return nullptr;
-    return std::make_unique<DielectricMaterial>(Body{*inside, *outside, priority, outside_is_stated});
+    auto surface = read_rough_surface(f);
+    if (!inside || !outside || !surface) return nullptr;
+    if (priority && !surface->facets.is_smooth())
+        f.error_at("priority", "a rough surface is prepared for one medium outside: give it by 'exterior_ior'");
+    std::pair<double, double> eta{infinity, 0};
+    for (int i = 0; i < b.scene.grid.count; ++i) {
+        double const nm =
+            std::clamp<double>(b.scene.grid.first_nm + i, b.scene.wavelengths.min_nm, b.scene.wavelengths.max_nm);
+        double const ratio = inside->index.n.at(nm) / outside->index.n.at(nm);
+        eta = {std::min(eta.first, ratio), std::max(eta.second, ratio)};
+    }
+    if (!surface->facets.is_smooth() && !(eta.first > 0 && std::isfinite(eta.second))) {
+        f.error_at("ior", "n reaches 0, under a rough surface: allowed: above 0");
+        return nullptr;
+    }
+    return std::make_unique<DielectricMaterial>(Body{*inside, *outside, priority, outside_is_stated},
+                                                std::move(*surface), eta);
 }
 
 MaterialPointer read_slab(SceneBuilder& b, Fields& f) {

@@ -14,9 +14,10 @@ namespace {
 
 constexpr auto table = std::to_array<MaterialEntry>({
     {"diffuse", "Lambert's law, on both sides", read_diffuse},
-    {"conductor", "a metal by its n + ik, smooth or GGX rough, bare or under thin films", read_conductor},
+    {"conductor", "a metal by its n + ik, smooth or rough, bare or under thin films", read_conductor},
     {"dielectric",
-     "a smooth transparent body, dispersive where its index is, absorbing, nested by priority, or under thin films",
+     "a transparent body, smooth or rough, dispersive where its index is, absorbing, nested by priority, or under thin "
+     "films",
      read_dielectric},
     {"slab", "a thin pane of a transparent medium, as one surface", read_slab},
     {"film", "thin films between equal media: a soap film", read_film},

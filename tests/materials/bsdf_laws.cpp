@@ -167,6 +167,7 @@ TEST_CASE("a sample's weight is f cos over its density", "[law]") {
             for (int i = 0; i < 500; ++i) {
                 auto const s = m.bsdf.sample(wo, numbers(sampler));
                 if (!s || !s->density) continue;
+                if (tolerance(s->wi) > .1) continue;  // nothing is left to tell
                 auto const e = m.bsdf.evaluate(wo, s->wi);
                 CHECK(e.density[0] == Approx(s->density->value).epsilon(tolerance(s->wi)));
                 for (int lane = 0; lane < lane_count; ++lane)

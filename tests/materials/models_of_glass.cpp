@@ -23,6 +23,7 @@ std::vector<NamedModel> glass_models() {
         };
         models.push_back({.name = name + " " + std::to_string(alpha),
                           .bsdf = with(index),
+                          .quadrature = 24,  // refraction ends with an edge
                           .white = true,
                           .width = alpha < .4f ? 2 * alpha : 2,
                           .index_below = index,

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// Fails for the two polynomials exchanged and for 2.5 left out of the first's argument.
+#include "base/error_function.h"
+
+#include <catch2/catch.hpp>
+
+using namespace iride;
+
+TEST_CASE("the inverse error function keeps its bound", "[unit]") {
+    double worst = 0;
+    for (int i = 1; i < 200000; ++i) {
+        double const x = 3.4 * i / 200000;
+        auto const y = static_cast<float>(std::erf(x));
+        if (!(y < 1 - 1e-6f)) break;
+        // y is rounded: x is that of the float.
+        double const exact = x + (static_cast<double>(y) - std::erf(x)) / (2 / std::sqrt(M_PI) * std::exp(-x * x));
+        double const found = static_cast<double>(inverse_error_function(y));
+        worst = std::max(worst, std::abs(found - exact) / (1 + exact));
+        CHECK(inverse_error_function(-y) == -inverse_error_function(y));
+    }
+    CHECK(worst < 5e-7);
+    CHECK(std::isfinite(inverse_error_function(1)));
+    CHECK(std::isfinite(inverse_error_function(-1)));
+}
