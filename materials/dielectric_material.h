@@ -7,7 +7,7 @@
 
 namespace iride {
 
-class DielectricMaterial : public Material {
+class DielectricMaterial final : public Material {
   public:
     // eta_range: n(inside) / n(outside) over the sampled wavelengths; rough surfaces are prepared for it.
     DielectricMaterial(Body body, RoughSurface surface, std::pair<double, double> eta_range)
