@@ -37,7 +37,7 @@ double random_walk(double n, double rho, double depth, double angle, int walks) 
 }  // namespace
 
 // Duntley's relation with the mean of Fresnel's equations in closed form, and the number of [Saunderson 1942] for n =
-// 1.5: .596. Fails without the factor 1 / n^2.
+// 1.5: .596. Fails for R_i = mean F, and when the coat's absorption is left out.
 TEST_CASE("a clear coat sends back to its base what the closed form says", "[unit]") {
     for (double n : {1.2, 1.5, 2.0}) {
         double const closed = 1 - (1 - test::walsh_mean_fresnel(n)) / square(n);
@@ -132,7 +132,8 @@ TEST_CASE("a rough coat's albedo becomes Fresnel's as it gets smooth", "[unit]")
     }
 }
 
-// The mirror image's share is left to sample(), which must choose it as often as evaluate() says it does not.
+// The mirror image's share is left to sample(), which must choose it as often as evaluate() says it does not. Fails for
+// a density without the probability of its lobe.
 TEST_CASE("a smooth coat's two lobes share the samples", "[law]") {
     SmoothPlastic const model = test::smooth_plastic(test::coat_indices(), Lanes(.5f));
     for (double angle : {0., 60., 85.}) {
