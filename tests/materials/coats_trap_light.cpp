@@ -90,6 +90,7 @@ TEST_CASE("a white base under a clear rough coat stays white", "[law]") {
     Lanes const n = test::coat_indices();
     for (float alpha : {.05f, .2f, .5f, 1.0f}) {
         RoughPlastic const white = test::rough_plastic(n, Lanes(1), alpha);
+        Ggx const ggx(alpha);
         for (double angle : {0., 30., 60., 80., 88.}) {
             // The lobe alone, and all: the coat's lobe is narrow, so it is summed over visible normals.
             Direction const wo = test::at_angle(angle);
@@ -98,12 +99,13 @@ TEST_CASE("a white base under a clear rough coat stays white", "[law]") {
             for (int i = 0; i < steps; ++i)
                 for (int j = 0; j < steps; ++j) {
                     Sample2 const u{(static_cast<float>(i) + .5f) / steps, (static_cast<float>(j) + .5f) / steps};
-                    Direction const h = Ggx{alpha}.visible_normal(wo, u);
+                    Direction const h = ggx.visible_normal(wo, {0, u});
                     for (Direction const& wi : {Direction(2 * wo.dot(h) * h - wo), to_cosine_hemisphere(u)}) {
                         if (!(wi.z() > 0)) continue;
                         Direction const half = (wo + wi).normalized();
-                        float const p = Ggx{alpha}.visible_density(wo, half).value / (4 * wo.dot(half)) +
-                                        cosine_hemisphere_density(wi.z()).value;
+                        float const visible =  // of half, over its reflection's 4 <wo, half>
+                            ggx.distribution(half).value / (4 * wo.z() * (1 + ggx.lambda(wo)));
+                        float const p = visible + cosine_hemisphere_density(wi.z()).value;
                         BsdfValue const f = white.evaluate(wo, wi).value;
                         for (int lane = 0; lane < lane_count; ++lane)
                             sum[static_cast<std::size_t>(lane)] +=
