@@ -14,24 +14,27 @@ namespace iride {
 
 namespace {
 
-constexpr double step_deg = 1;
-constexpr int last_step = 90;
-
-// The colours at 0, 1, ... 90 degrees: the exact ones, then those of each approximation.
+// The colours at even steps from 0 to 90 degrees: the exact ones, then those of each approximation.
 struct Sweep {
     std::string title;
     std::vector<MaterialColour> colour;
+
+    double angle_deg(std::size_t i) const { return 90 * static_cast<double>(i) / static_cast<double>(last()); }
+    double place_of(double angle) const { return angle / 90 * static_cast<double>(last()); }
+    std::size_t last() const { return colour.size() - 1; }
 };
 
 std::vector<Sweep> sweeps_of(GivenMaterial const& m, MaterialColorimetry const& colorimetry) {
     std::vector<Sweep> sweeps{{m.smooth() ? "exact" : "the material", {}}};
     std::optional<ApproximateColours> approximate;
     if (m.smooth()) approximate.emplace(m, colorimetry);
-    for (int i = 0; i <= last_step; ++i) {
-        sweeps[0].colour.push_back(colorimetry.of(m, i * step_deg));
+    int const steps_per_degree = m.smooth() ? 4 : 1;  // an albedo is dear
+    for (int i = 0; i <= 90 * steps_per_degree; ++i) {
+        double const angle = static_cast<double>(i) / steps_per_degree;
+        sweeps[0].colour.push_back(colorimetry.of(m, angle));
         if (!approximate) continue;
         std::size_t at = 1;
-        for (auto const& entry : approximate->at(i * step_deg)) {
+        for (auto const& entry : approximate->at(angle)) {
             if (sweeps.size() == at) sweeps.push_back({entry.title, {}});
             sweeps[at++].colour.push_back(entry.colour);
         }
@@ -63,10 +66,9 @@ Plot reflectance_panel(GivenMaterial const& m, std::vector<double> const& angles
 }
 
 // A ring sector from the normal, upwards, to the surface, to the right.
-void draw_ring(Plot& panel, MaterialColorimetry const& colorimetry, std::vector<MaterialColour> const& colours,
-               double inner, double outer) {
+void draw_ring(Plot& panel, MaterialColorimetry const& colorimetry, Sweep const& sweep, double inner, double outer) {
     std::vector<VectorDouble> shown;
-    for (MaterialColour const& c : colours) shown.push_back(colorimetry.shown(c));
+    for (MaterialColour const& c : sweep.colour) shown.push_back(colorimetry.shown(c));
     std::vector<PlotPoint> edge;
     auto const at = [](double radius, int degrees) {
         return PlotPoint{radius * std::sin(radians(degrees)), radius * std::cos(radians(degrees))};
@@ -74,7 +76,7 @@ void draw_ring(Plot& panel, MaterialColorimetry const& colorimetry, std::vector<
     for (int i = 0; i <= 90; ++i) edge.push_back(at(outer, i));
     for (int i = 90; i >= 0; --i) edge.push_back(at(inner, i));
     panel.fill(edge, [&](PlotPoint const& p) {
-        double const place = std::clamp(std::atan2(p.x, p.y) / radians(step_deg), 0.0, double{last_step});
+        double const angle = std::clamp(std::atan2(p.x, p.y) / radians(1), 0.0, 90.0), place = sweep.place_of(angle);
         std::size_t const cell = std::min(static_cast<std::size_t>(place), shown.size() - 2);
         VectorDouble const c = shown[cell] + (place - static_cast<double>(cell)) * (shown[cell + 1] - shown[cell]);
         return PlotColour{c[0], c[1], c[2]};
@@ -88,8 +90,8 @@ Plot strip_panel(MaterialColorimetry const& colorimetry, std::vector<Sweep> cons
     bool const compared = sweeps.size() > 1;
     Plot panel(560, 560, {-.06, extent, 0, compared ? "Outside: exact. Inside: 1982" : "Colour by angle"},
                {-.06, extent, 0, ""});
-    draw_ring(panel, colorimetry, sweeps[0].colour, compared ? .68 : .4, 1);
-    if (compared) draw_ring(panel, colorimetry, sweeps[1].colour, .34, .66);
+    draw_ring(panel, colorimetry, sweeps[0], compared ? .68 : .4, 1);
+    if (compared) draw_ring(panel, colorimetry, sweeps[1], .34, .66);
     for (int angle = 0; angle <= 90; angle += 15) {
         double const x = std::sin(radians(angle)), y = std::cos(radians(angle));
         panel.label(fmt::format("{}°", angle), {x, y}, std::max(x, .02), std::max(y, .02), false, 8);
@@ -121,7 +123,7 @@ Plot chromaticity_panel(std::vector<Sweep> const& sweeps) {
         panel.line(points, stroke_of(i, ""));
     }
     for (int angle : {0, 30, 60, 75, 85})
-        if (auto const& c = sweeps[0].colour[static_cast<std::size_t>(angle)]; c.xy) {
+        if (auto const& c = sweeps[0].colour[static_cast<std::size_t>(sweeps[0].place_of(angle))]; c.xy) {
             panel.disc({c.xy->x, c.xy->y}, 6, {0, 0, 0});
             panel.label(fmt::format("{}°", angle), {c.xy->x, c.xy->y}, 1, -1, true);
         }
@@ -136,7 +138,7 @@ Plot difference_panel(std::vector<Sweep> const& sweeps) {
         for (std::size_t j = 0; j < sweeps[0].colour.size(); ++j) {
             Lab const& exact = sweeps[0].colour[j].lab;
             double const E = delta_e_2000(exact, i == 0 ? sweeps[0].colour[0].lab : sweeps[i].colour[j].lab);
-            curves.back().push_back({static_cast<double>(j) * step_deg, E});
+            curves.back().push_back({sweeps[0].angle_deg(j), E});
             most = std::max(most, E);
         }
     }

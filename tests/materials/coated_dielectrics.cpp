@@ -101,7 +101,8 @@ TEST_CASE("the lanes' stack is wave optics' from both sides of a glass", "[law]"
         }
 }
 
-// Every lane: what is not reflected is transmitted, whichever lane is the hero. Fails with the hero's T for all lanes.
+// Every lane: what is not reflected is transmitted, whichever lane is the hero. Seen to fail with the sine of one side
+// taken for the other's.
 TEST_CASE("a lossless coating loses no light of any lane", "[law]") {
     std::vector<CoatingLayer> const layers{{constant(1.38), 100}, {constant(2.3), 260}};
     CoatedDielectricMaterial const glass(CoatingTable(layers, constant(1.5), grid), grid);
@@ -144,7 +145,7 @@ TEST_CASE("light refracts under a coating as without, and goes straight through 
 }
 
 // Airy's formula: R = 4 r^2 sin^2 b / ((1 - r^2)^2 + 4 r^2 sin^2 b), r of one face, b = 2 pi n d cos / lambda; at
-// vanishing thickness a soap film is black. Fails with the phase jump at one face left out.
+// vanishing thickness a soap film is black. Seen to fail with half the phase.
 TEST_CASE("a soap film reflects Airy's sum, and nothing when it is thinnest", "[law]") {
     double const n = 1.33;
     Wavelengths const w = packet(.5f);

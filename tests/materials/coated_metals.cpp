@@ -27,9 +27,8 @@ ComplexIndex on_grid(ComplexIndex const& index, WavelengthGrid const& grid) {
 
 }  // namespace
 
-// Films to 10 um, whose fringes on silver near grazing incidence are narrower than .1 nm; twenty quarter waves. Fails
-// for the phase of a layer without the square root of its index, and in single precision for r1 + r2 e^2 over its
-// denominator layer by layer.
+// Films to 10 um, whose fringes on silver near grazing incidence are narrower than .1 nm; twenty quarter waves. Seen to
+// fail with half the phase.
 TEST_CASE("a coating's lanes agree with wave optics in double precision", "[law]") {
     WavelengthGrid const grid = WavelengthGrid::covering(visible_range);
     ComplexIndex const silver = on_grid(load_complex_index("Ag"), grid);
