@@ -34,8 +34,7 @@ std::string const plane = R"("type": "quad", "corners": [[-1,-1,0],[1,-1,0],[1,1
 }  // namespace
 
 // A white Lambert surface whose normal is turned by t away from the true one: of the light it should reflect, that from
-// below the surface is missing, (1 - cos t) / 2. Fails where samples below the surface are kept (1, light through the
-// wall) and where they are weighed again (above .9).
+// below the surface is missing, (1 - cos t) / 2: with samples kept there, or weighed again, the mean would be 1.
 TEST_CASE("a turned normal loses what it would have had from below the surface, and no more", "[law]") {
     test::TemporaryFolder const folder;
     // 2 rgb - 1 = (.6, 0, .8) but for the rounding of 8 bits.
@@ -70,7 +69,7 @@ TEST_CASE("a bumped white sphere in a white furnace is never brighter than the f
     }
 }
 
-// Fails with normals that are not bent to the viewer: a third of the rim is black.
+// Mirrored into the surface, a direction would be dropped.
 TEST_CASE("a bumped mirror has no black fringes", "[law]") {
     auto const scene = test::scene_from(furnace(
         R"("type": "sphere", "centre": [0,0,0], "radius": 1)",

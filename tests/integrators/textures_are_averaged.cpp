@@ -71,3 +71,19 @@ TEST_CASE("so has a floor of pictures", "[law]") {
                     "scene.json", floor_of(R"({ "image": "tiles.png", "space": "sRGB", "scale": [400, 400] })"))),
                 .85);
 }
+
+TEST_CASE("cones are carried only where a texture is averaged, and the plan says what is skipped", "[unit]") {
+    auto const used = [](RenderPlan const& plan, std::string const& name) {
+        auto const found = std::ranges::find(plan.decisions, name, &RenderPlan::Decision::name);
+        REQUIRE(found != plan.decisions.end());
+        return found->used;
+    };
+    auto const plain = test::scene_from(floor_of("0.5"));
+    RenderPlan const without = make_plan(*plain);
+    CHECK(!without.ray_cones);
+    for (char const* name : {"textures", "bumps", "alpha", "uv and tangents", "ray cones"}) CHECK(!used(without, name));
+    auto const checkered = test::scene_from(floor_of(R"({ "checker": [0.1, 0.9] })"));
+    RenderPlan const with = make_plan(*checkered);
+    CHECK(with.ray_cones);
+    CHECK((used(with, "textures") && used(with, "uv and tangents") && !used(with, "bumps") && !used(with, "alpha")));
+}

@@ -27,7 +27,7 @@ ScalarMap sine_squared() { return ScalarMap(std::make_shared<Waves>(Vector2(0, 1
 
 }  // namespace
 
-// Fails with the gradient's sign turned, or with height per texture unit instead of per metre.
+// Fails with the gradient's sign turned.
 TEST_CASE("height sin^2(latitude) / 10 turns the sphere's normal as the exercise says", "[unit]") {
     SurfacePoint const point = on_sphere(pi / 4);
     CHECK(sine_squared().at(point) == Approx(.5));
@@ -77,7 +77,7 @@ TEST_CASE("a picture of heights has the slopes of the surface it is", "[unit]") 
     }
 }
 
-// Fails with v counted downwards, or b on the other side of t.
+// Fails with b on the other side of t.
 TEST_CASE("a normal map turns the normal to the right for red and up for green", "[unit]") {
     auto picture = std::make_shared<NormalMap::Pyramid>();
     picture->level.push_back({1, 1, {Eigen::Array3f(.36f, .48f, .8f)}});

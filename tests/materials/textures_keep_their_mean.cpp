@@ -33,7 +33,6 @@ SurfacePoint at_uv(float u, float v) {
 
 }  // namespace
 
-// Fails with plain 2 x 2 means, which leave out the last column of an odd width.
 TEST_CASE("every level has the mean of the picture, whatever its size", "[unit]") {
     for (auto [width, height] : {std::pair(64, 64), {37, 51}, {1, 9}, {100, 3}}) {
         auto const picture = random_picture(width, height);
@@ -88,7 +87,6 @@ TEST_CASE("a wide footprint averages the picture", "[law]") {
     CHECK(squares < of_points / 25);
 }
 
-// Fails with a wave of period 1, and with the width halved.
 TEST_CASE("a checker's average is that of many points of the box", "[law]") {
     Checker const checker(Vector2(3, 5));
     CHECK(checker.at(at_uv(.1f, .1f)) == 0);

@@ -54,8 +54,8 @@ void check_derivatives(Scene const& scene, Vector const& eye) {
 
 }  // namespace
 
-// Fails for a sphere with the longitude turned round, a quad with its triangles' own coordinates, a disc with u and v
-// exchanged, a frustum without the slope of its side.
+// Fails for a sphere with the longitude turned round, a quad with its triangles' own coordinates, a frustum without the
+// slope of its side.
 TEST_CASE("uv grows as its derivatives say, upright and unmirrored", "[law]") {
     for (
         char const* shape :
