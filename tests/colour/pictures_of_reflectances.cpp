@@ -85,7 +85,8 @@ TEST_CASE("colours that no reflectance has are counted, and get the nearest", "[
     UpliftedColours const u = uplift_reflectances(texels, rgb::acescg);
     CHECK(u.unreachable == 1);
     CHECK(u.worst_difference > 1);
-    // No farther than what rgb_to_spectrum tells of the same colour; both are the nearest found, not proved the nearest.
+    // No farther than what rgb_to_spectrum tells of the same colour; both are the nearest found, not proved the
+    // nearest.
     try {
         rgb_to_spectrum({0, 1, 0}, rgb::acescg, RgbRole::reflectance);
         FAIL("accepted");
