@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fails for the two polynomials exchanged and for 2.5 left out of the first's argument.
+// The stated bound, against the standard library's error function.
 #include "base/error_function.h"
 
 #include <catch2/catch.hpp>

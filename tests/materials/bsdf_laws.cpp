@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The laws every model with a density obeys, over one table of models (support/bsdf_models.h): sampling matches
 // density, per lane and on both sides of the surface; weight is f cos / p; reciprocity; energy; no NaN whatever the
-// arguments. The comment above a test names the wrong models with which it was seen to fail.
+// arguments. "Fails for" names wrong models with which a test was seen to fail.
 #include <catch2/catch.hpp>
 
 #include "support/bsdf_models.h"
@@ -66,9 +66,8 @@ test::LobeHistogram histogram_about_lobes(test::NamedModel const& m, Direction c
 
 }  // namespace
 
-// Fails for a uniform instead of a cosine hemisphere in Lambert; for Beckmann's slope drawn without the factor of the
-// projected area; for a component of a mixture chosen by w_j alone; for the v-cavity's normal never mirrored; for a
-// rough glass without the Jacobian's eta^2, and for one whose lobe of several bounces is the same on both sides.
+// Fails for a uniform instead of a cosine hemisphere in Lambert, for Beckmann's slope drawn without the factor of the
+// projected area, and for a component of a mixture chosen by w_j alone.
 TEST_CASE("sampled directions follow the stated density", "[law]") {
     constexpr int samples = 1000000;
     constexpr double level = 1e-3 / 200;  // Sidak over the cases
@@ -92,8 +91,7 @@ TEST_CASE("sampled directions follow the stated density", "[law]") {
     }
 }
 
-// Of every lane: made the hero, a lane's directions are distributed as it said when it was not. Fails for reach 1 in
-// all lanes, and for one lane's Fresnel term in all.
+// Made the hero, a lane has the density that it had when it was not.
 TEST_CASE("a lane's density is that of the same lane as the hero", "[law]") {
     for (test::NamedModel const& m : models()) {
         if (!m.with_hero) continue;
@@ -122,8 +120,7 @@ TEST_CASE("a lane's density is that of the same lane as the hero", "[law]") {
 }
 
 // By quadrature: 1 for models that are white, whose density is f cos wi (n_i / n_o)^2, so that a white furnace stays
-// white; elsewhere what is missing is the share of samples that fail. Fails for the lobe of several bounces left out or
-// doubled, and for a rough glass with the mean loss of one side in it.
+// white; elsewhere what is missing is the share of samples that fail.
 TEST_CASE("densities integrate to one and white surfaces give back what they get", "[law]") {
     for (test::NamedModel const& m : models())
         from_both_sides(m, {0., 30., 60., 80.}, [&](Direction const& wo) {
@@ -152,8 +149,7 @@ TEST_CASE("densities integrate to one and white surfaces give back what they get
         });
 }
 
-// Fails for RoughConductor without the factor 1/4 in its density, for Lambert's f without 1 / pi, and for a rough glass
-// without 1 / eta^2 in the weight.
+// Fails for RoughConductor without the factor 1/4 in its density, and for Lambert's f without 1 / pi.
 TEST_CASE("a sample's weight is f cos over its density", "[law]") {
     for (test::NamedModel const& m : models())
         from_both_sides(m, {0., 35., 70., 88., 89.9}, [&](Direction const& wo) {
@@ -179,9 +175,9 @@ TEST_CASE("a sample's weight is f cos over its density", "[law]") {
         });
 }
 
-// f / n^2 of the side the light leaves on, between all pairs of directions. Fails for G1(wo) instead of G2, for a
-// reflectance by the cosine of wi against the surface, for mean_loss in place of loss(wi), and for a rough glass's f
-// without 1 / eta^2.
+// f / n^2 of the side the light leaves on. Fails for G1(wo) instead of G2, for a reflectance by the cosine of wi
+// against the surface, and for a refraction's half vector from wo + eta wi, which is rounded one way there and another
+// way back.
 TEST_CASE("light and viewer may change places", "[law]") {
     for (test::NamedModel const& m : models()) {
         if (!m.reciprocal) continue;
@@ -199,7 +195,7 @@ TEST_CASE("light and viewer may change places", "[law]") {
     }
 }
 
-// Fails for F doubled, and for a rough glass without 1 / eta^2.
+// Fails for F doubled.
 TEST_CASE("no surface gives back more than it gets", "[law]") {
     for (test::NamedModel const& m : models()) {
         if (!m.conserving) continue;
@@ -283,7 +279,6 @@ void call_with_hostile_arguments(std::uint32_t calls) {
 
 }  // namespace
 
-// Fails without edge_on, and without the greatest exponent in Beckmann's distribution.
 TEST_CASE("no model answers with NaN or less than nothing", "[law]") { call_with_hostile_arguments(1000000); }
 
 TEST_CASE("no model answers with NaN or less than nothing, a hundred million times", "[.stress]") {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The classic model, Beckmann facets under the v-cavity's masking, against values worked out independently from the
-// closed form F D G / (4 cos cos) with D over pi. Fails for G1(wo) G1(wi) instead of their minimum, and for D without 1
-// / pi.
+// closed form F D G / (4 cos cos) with D over pi.
 #include <catch2/catch.hpp>
 
 #include "support/conductors.h"

@@ -23,7 +23,7 @@ std::vector<NamedModel> glass_models() {
         };
         models.push_back({.name = name + " " + std::to_string(alpha),
                           .bsdf = with(index),
-                          .quadrature = 24,  // refraction ends with an edge
+                          .quadrature = alpha < 1 ? 24 : 96,  // refraction ends with an edge, the higher the rougher
                           .white = true,
                           .width = alpha < .4f ? 2 * alpha : 2,
                           .index_below = index,
