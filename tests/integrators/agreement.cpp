@@ -154,8 +154,7 @@ TEST_CASE("path and its reference agree: from inside a coloured body", "[law]") 
                     wine_glass(R"({ "eye": [-1.5,0.8,0.5], "target": [-1.1,0.4,0.2], "field_deg": 70 })"));
 }
 
-// Fails when a smooth coat's density leaves out the probability of its lobe, and when the number that chooses a part of
-// a mixture is also the one that chooses its lobe.
+// Dirac and density lobes side by side, chosen within a part that is chosen itself.
 TEST_CASE("path and its reference agree: plastic, a mixture, a lamp with a profile", "[law]") {
     check_agreement(
         "plastic",
