@@ -75,7 +75,7 @@ TEST_CASE("the irradiance under a disc of radiance L0 cos^n is that of the close
         }
 }
 
-// Every shape, both orders of front and back.
+// Every shape, both orders of front and back. Fails when the samples leave out the profile.
 TEST_CASE("a sampled lamp brings what is emitted from the place found", "[law]") {
     std::vector<std::string> const shapes{
         R"("type": "sphere", "centre": [0.3,1.5,0.2], "radius": 0.9)",
