@@ -38,8 +38,8 @@ double sigma_a(double nm) { return nm < 600 ? .2 + 1.8 * (nm - 360) / 240 : 2 - 
 
 }  // namespace
 
-// Fails for absorption outside the body instead of in it, for T = (1 - F)^2 t (by .8 %), and where the light that
-// echoes between the faces absorbs but once.
+// Fails where the way to an inner face does not absorb but the way to an outer one does, and where a path is absorbed
+// but once.
 TEST_CASE("a pane of coloured glass transmits the closed form of all orders", "[law]") {
     double const F = normal_F(2.5), d = .7;
     Xyz const wanted = test::colour_of([&](double nm) { return transmitted(F, std::exp(-sigma_a(nm) * d)); });
@@ -54,7 +54,7 @@ TEST_CASE("light that crosses a pane at an angle is absorbed along its refracted
     check_colour(test::through_to_wall(60, plastic, test::wide_box("glass", 0, d)), wanted, 1 << 15, 1e-3);
 }
 
-// Fails for 2 pi k / lambda, the decay of the amplitude, and for the wavelength in the body, lambda / n.
+// Fails for 2 pi k / lambda, the decay of the amplitude.
 TEST_CASE("five metres of water are as blue as Hale and Querry's k", "[law]") {
     ComplexIndex const water = load_complex_index("H2O:Hale");
     Xyz const wanted = test::colour_of([&](double nm) {
@@ -66,8 +66,7 @@ TEST_CASE("five metres of water are as blue as Hale and Querry's k", "[law]") {
                  wanted, 1 << 15, 2e-3);
 }
 
-// With n = 1 there is no surface, and no chance but that of the wavelengths. Fails for a distance in metres where the
-// file's unit is another.
+// With n = 1 there is no surface, and no chance but that of the wavelengths.
 TEST_CASE("a colour at a distance is that colour at that distance", "[law]") {
     std::string text = test::through_to_wall(
         0,

@@ -20,8 +20,7 @@ test::Measured seen_through(double angle, std::string const& type_and_keys, std:
 
 }  // namespace
 
-// T of each polarisation is (1 - F)^2 t / (1 - F^2 t^2). Fails for the reflectance of unpolarised light in its place
-// (by .017 at 60 degrees).
+// T of each polarisation is (1 - F)^2 t / (1 - F^2 t^2).
 TEST_CASE("a window of one quad dims the wall behind it by both polarisations' closed form", "[law]") {
     for (double angle : {0., 60.}) {
         double const s = std::sin(radians(angle)) / 2, t = std::exp(-.8 * .5 / std::sqrt(1 - s * s));

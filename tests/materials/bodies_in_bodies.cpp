@@ -53,7 +53,7 @@ TEST_CASE("between bodies of one material there is no surface", "[unit]") {
     CHECK(&in.medium() == &vacuum);
 }
 
-// Fails when the list may hold what it was never told to leave.
+// Fails when what is met from behind is not taken to be around, and when what was left stays in the list.
 TEST_CASE("a body that is left without having been entered was around the path, and is gone then", "[unit]") {
     Body const glass = body(1), water = body(2);
     Surroundings in;

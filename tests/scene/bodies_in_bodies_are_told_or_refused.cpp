@@ -117,7 +117,6 @@ TEST_CASE("panes are thicker than nothing", "[input]") {
     CHECK_THAT(pane(R"("ior": "Ag", "thickness": 1)"), Contains("'conductor'"));
 }
 
-// Fails for one direction alone where it leaves through the hole.
 TEST_CASE("the bodies around a point are found, through a hole too", "[unit]") {
     auto const scene = test::scene_from(scene_text(
         dielectric("glass", R"("ior": 1.5, "priority": 2)") + "," +
