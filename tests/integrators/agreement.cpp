@@ -144,8 +144,8 @@ std::string wine_glass(std::string const& camera) {
                {{ "type": "sphere", "centre": [-1.1,0.2,0.4], "radius": 0.1, "material": {{ "type": "black" }}, "emission": {{ "radiance": 6 }} }} ] }})",
         camera, floor_quad, lamp);
 }
-// Coarse: light samples without absorption (caught by absorption_obeys_beer_and_lambert.cpp) and a density kept behind a
-// passed surface were too small a change to be seen here.
+// Coarse: light samples without absorption (caught by absorption_obeys_beer_and_lambert.cpp) and a density kept behind
+// a passed surface were too small a change to be seen here.
 TEST_CASE("path and its reference agree: dispersive bodies that absorb, one in the other", "[law]") {
     check_agreement("wine glass", wine_glass(view));
 }
