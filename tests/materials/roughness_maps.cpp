@@ -35,13 +35,17 @@ double difference(Bsdf const& a, Bsdf const& b) {
     return most;
 }
 
+ConductorMaterial metal(float roughness, bool multiple_scattering) {
+    return {gold(), {Facets::ggx(roughness, roughness)}, multiple_scattering, grid};
+}
+
 }  // namespace
 
 TEST_CASE("where the map says .3, the metal is that of roughness .3", "[unit]") {
     Wavelengths const w = WavelengthSampler(visible_range, visible_importance(), grid).sample(.4f);
     for (bool multiple : {true, false}) {
         RoughnessMappedConductor const mapped(gold(), ScalarMap(.3f), multiple, grid);
-        ConductorMaterial const plain(gold(), .3f, multiple, grid);
+        ConductorMaterial const plain = metal(.3f, multiple);
         CHECK(difference(mapped.at({}, w), plain.at({}, w)) < (multiple ? 1e-3 : 1e-5));
     }
 }
@@ -56,6 +60,6 @@ TEST_CASE("a varying roughness is rounded by 1.5 % at most", "[unit]") {
     for (float u : {0.f, .07f, .21f, .33f, .5f}) {
         point.uv = {u, 0};
         float const roughness = .3f + .2f * std::cos(2 * pi * u);
-        CHECK(difference(mapped.at(point, w), ConductorMaterial(gold(), roughness, true, grid).at({}, w)) < .09);
+        CHECK(difference(mapped.at(point, w), metal(roughness, true).at({}, w)) < .09);
     }
 }
