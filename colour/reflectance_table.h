@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Many RGB reflectances at once: the sigmoids of colour/sigmoid_fit.h, found from a table of them over the RGB cube and
 // improved by the same damped Newton steps until the CIE 1976 difference is below .01 (tested: .02, by another
-// quadrature); one exact fit takes about 10 us, one from the table 1.3, and a colour
-// that no reflectance has, 100.
+// quadrature); one exact fit takes about 10 us, one from the table 1.3, and a colour that no reflectance has, 100: the
+// nearest that one fit finds, not the 81 of SigmoidFitter::nearest, whatever a picture holds.
 // Table: for each component that may be the largest, m in 32 steps and the two others over m in 16 each; made on all
 // processors when a picture first needs it, once for each RGB space. [Jakob 2019, section 4]
 #pragma once

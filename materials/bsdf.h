@@ -23,6 +23,10 @@
 
 namespace iride {
 
+// Cosine below which a surface is seen edge-on and scatters nothing: half vectors have lost their digits, and values
+// that grow as 1 / cos would leave the range of floats.
+inline constexpr float edge_on = 1e-6f;
+
 // Three random numbers: which lobe, and where in it.
 struct Sample3 {
     float lobe;

@@ -23,7 +23,7 @@ struct FacetComponent {
     auto operator<=>(FacetComponent const&) const = default;
 };
 
-inline constexpr float smallest_roughness = 1e-3f;
+inline constexpr double smallest_roughness = 1e-3;
 inline constexpr std::size_t max_facet_components = 8;
 
 struct Facets {

@@ -16,9 +16,6 @@
 
 namespace iride {
 
-// Cosine below which a surface is seen edge-on and scatters nothing: half vectors and D / cos have lost their digits.
-inline constexpr float edge_on = 1e-6f;
-
 template <class T>
 concept FacetModel = requires(T const& facets, Direction const& w, float lambda, Sample3& u) {
     { facets.distribution(w) } -> std::same_as<PerSteradian>;

@@ -20,17 +20,17 @@ struct OrenNayar {
     float roughness;
 
     BsdfEvaluation evaluate(Direction const& wo, Direction const& wi) const {
-        if (!(wo.z() > 0 && wi.z() > 0)) return {};
+        if (!(wo.z() > edge_on && wi.z() > edge_on)) return {};
         Slant const o(wo);
         return evaluate(wo, o, share_of_excess(o), wi);
     }
 
     std::optional<BsdfSample> sample(Direction const& wo, Sample3 u) const {
-        if (!(wo.z() > 0)) return std::nullopt;
+        if (!(wo.z() > edge_on)) return std::nullopt;
         Slant const o(wo);
         float const excess = share_of_excess(o);
         Direction const wi = u.lobe < excess ? towards_viewer(wo, o, u.direction) : to_cosine_hemisphere(u.direction);
-        if (!(wi.z() > 0)) return std::nullopt;  // probability 0
+        if (!(wi.z() > edge_on)) return std::nullopt;  // probability 0
         BsdfEvaluation const e = evaluate(wo, o, excess, wi);
         PerSteradian const density(e.density[0]);
         return std::optional<BsdfSample>(std::in_place, wi, Throughput(e.value.lane * (wi.z() / density.value)),

@@ -52,20 +52,20 @@ struct SmoothPlastic {
     CoatedBase coat;
 
     BsdfEvaluation evaluate(Direction const& wo, Direction const& wi) const {
-        if (!(wo.z() > 0 && wi.z() > 0)) return {};
+        if (!(wo.z() > edge_on && wi.z() > edge_on)) return {};
         Lanes const R = reflectance(wo.z()), T = coat.transmittance(R, wo.z());
         return evaluate(T, coat.share_of_coat(R, T), wi);
     }
 
     std::optional<BsdfSample> sample(Direction const& wo, Sample3 u) const {
-        if (!(wo.z() > 0)) return std::nullopt;
+        if (!(wo.z() > edge_on)) return std::nullopt;
         Lanes const R = reflectance(wo.z()), T = coat.transmittance(R, wo.z());
         float const share = coat.share_of_coat(R, T);
         if (u.lobe < share)
             return std::optional<BsdfSample>(std::in_place, Direction(-wo.x(), -wo.y(), wo.z()), R * (1 / share),
                                              Lanes(1), std::nullopt);
         Direction const wi = to_cosine_hemisphere(u.direction);
-        if (!(wi.z() > 0)) return std::nullopt;  // the rim of the disc: probability 0
+        if (!(wi.z() > edge_on)) return std::nullopt;  // the rim of the disc: probability 0
         BsdfEvaluation const e = evaluate(T, share, wi);
         PerSteradian const density(e.density[0]);
         return std::optional<BsdfSample>(std::in_place, wi, Throughput(e.value.lane * (wi.z() / density.value)),
@@ -88,13 +88,13 @@ struct RoughPlastic {
     CoatAlbedo const* albedo;  // of the same ggx; of the material, which outlives every path
 
     BsdfEvaluation evaluate(Direction const& wo, Direction const& wi) const {
-        if (!(wo.z() > 0 && wi.z() > 0)) return {};
+        if (!(wo.z() > edge_on && wi.z() > edge_on)) return {};
         Lanes const R = albedo->reflectance(coat.n, wo.z()), T = coat.transmittance(R, wo.z());
         return evaluate(wo, T, coat.share_of_coat(R, T), wi);
     }
 
     std::optional<BsdfSample> sample(Direction const& wo, Sample3 u) const {
-        if (!(wo.z() > 0)) return std::nullopt;
+        if (!(wo.z() > edge_on)) return std::nullopt;
         Lanes const R = albedo->reflectance(coat.n, wo.z()), T = coat.transmittance(R, wo.z());
         float const share = coat.share_of_coat(R, T);
         Direction wi;
@@ -104,7 +104,7 @@ struct RoughPlastic {
         } else {
             wi = to_cosine_hemisphere(u.direction);
         }
-        if (!(wi.z() > 0)) return std::nullopt;  // thrown down by a steep facet
+        if (!(wi.z() > edge_on)) return std::nullopt;  // thrown down by a steep facet
         BsdfEvaluation const e = evaluate(wo, T, share, wi);
         PerSteradian const density(e.density[0]);
         return std::optional<BsdfSample>(std::in_place, wi, Throughput(e.value.lane * (wi.z() / density.value)),

@@ -125,11 +125,12 @@ struct RoughDielectric {
         for (int i = 0; i < lane_count; ++i) result.lane[i] = refracted(view.near[i], view.far[i], wo, wi);
         return result;
     }
-    // The sum of n w is the same, to the last bit, if light and viewer change places.
+    // The sum of n w is taken in double, so that it is the same if light and viewer change places: D is too steep for
+    // what floats leave of it, in an order of the compiler's choice.
     float refracted(float near, float far, Direction const& wo, Direction const& wi) const {
-        Vector const sum = near * wo + far * wi;
-        float const size2 = sum.squaredNorm();
-        Direction const h = sum / std::copysign(std::sqrt(size2), sum.z());
+        VectorDouble const sum = wo.cast<double>() * near + wi.cast<double>() * far;
+        auto const size2 = static_cast<float>(sum.squaredNorm());
+        Direction const h = (sum / std::copysign(sum.norm(), sum.z())).cast<float>();
         float const o = wo.dot(h), i = -wi.dot(h);
         if (!(o > 0 && i > 0 && h.z() > 0)) return 0;
         float const transmitted = 1 - fresnel(std::min(1.0f, o), far / near, 0.0f).unpolarised();

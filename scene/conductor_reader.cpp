@@ -23,7 +23,7 @@ MaterialPointer read_coated_conductor(SceneBuilder& b, Fields& f, std::optional<
 }
 
 MaterialPointer read_roughness_mapped(SceneBuilder& b, Fields& f, std::optional<ComplexIndex> const& ior) {
-    auto const roughness = read_scalar_map(b, f, "roughness", {"roughness", between(1e-3, 1)});
+    auto const roughness = read_scalar_map(b, f, "roughness", {"roughness", between(smallest_roughness, 1)});
     if (f.find("coating")) f.error_at("coating", "a coated metal has one roughness, a number: no map");
     bool const multiple_scattering = f.boolean("multiple_scattering").value_or(true);
     if (!ior || !roughness) return nullptr;

@@ -33,7 +33,7 @@ MaterialPointer read_plastic(SceneBuilder& b, Fields& f) {
     auto const transmittance = f.find("coat_transmittance") ? read_spectrum(b, f, "coat_transmittance", coat_kind)
                                                             : SpectralFunction::constant(1);
     double const roughness = f.number("roughness", between(0, 1)).value_or(0);
-    if (roughness > 0 && roughness < 1e-3)
+    if (roughness > 0 && roughness < smallest_roughness)
         f.error_at("roughness", "allowed: 0 (a smooth coat) or 0.001 .. 1 (GGX alpha)");
     if (!reflectance || !ior || !transmittance) return nullptr;
     if (ior->k.largest(b.scene.wavelengths) > 0) {

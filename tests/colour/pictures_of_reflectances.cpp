@@ -80,19 +80,19 @@ TEST_CASE("grey texels are constants, black and white exactly", "[unit]") {
     }
 }
 
-TEST_CASE("colours that no reflectance has are counted, and get the nearest", "[unit]") {
+TEST_CASE("colours that no reflectance has are counted, and get a near one", "[unit]") {
     std::vector<Eigen::Array3f> const texels{{.5f, .4f, .3f}, {0, 1, 0}, {.2f, .2f, .1f}};
     UpliftedColours const u = uplift_reflectances(texels, rgb::acescg);
     CHECK(u.unreachable == 1);
     CHECK(u.worst_difference > 1);
-    // No farther than what rgb_to_spectrum tells of the same colour; both are the nearest found, not proved the
-    // nearest.
+    // One fit, not the 81 of rgb_to_spectrum's refusal: it may end in a valley up to 12 farther (colour/sigmoid_fit.h).
     try {
         rgb_to_spectrum({0, 1, 0}, rgb::acescg, RgbRole::reflectance);
         FAIL("accepted");
     } catch (InputError const& e) {
         std::string const text = e.what();
         double const told = std::stod(text.substr(text.rfind(' ')));
-        CHECK(u.worst_difference <= told * 1.001);
+        CHECK(u.worst_difference >= told - .3);
+        CHECK(u.worst_difference <= told + 12);
     }
 }
