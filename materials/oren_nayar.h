@@ -58,7 +58,7 @@ struct OrenNayar {
 
     BsdfEvaluation evaluate(Direction const& wo, Slant const& o, float excess, Direction const& wi) const {
         Slant const i(wi);
-        float const A = scale(), s = wo.x() * wi.x() + wo.y() * wi.y();
+        float const A = scale(), s = std::max(-1.0f, wo.x() * wi.x() + wo.y() * wi.y());  // but for rounding
         float const once = A * (1 + roughness * (s > 0 ? s / std::max(wo.z(), wi.z()) : s)) * inverse_pi;
         float const often = A * roughness * o.lost() * i.lost() * (inverse_pi / (c1 - c2));
         float const mean = A * (1 + c2 * roughness);  // E

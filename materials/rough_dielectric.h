@@ -125,17 +125,20 @@ struct RoughDielectric {
         for (int i = 0; i < lane_count; ++i) result.lane[i] = refracted(view.near[i], view.far[i], wo, wi);
         return result;
     }
-    // The sum of n w is taken in double, so that it is the same if light and viewer change places: D is too steep for
-    // what floats leave of it, in an order of the compiler's choice.
+    // Half vector and cosines are found in double, and Fresnel's equations on the side of lower index, where angles
+    // are larger: so light and viewer may change places though D is steep and the critical angle near.
     float refracted(float near, float far, Direction const& wo, Direction const& wi) const {
         VectorDouble const sum = wo.cast<double>() * near + wi.cast<double>() * far;
-        auto const size2 = static_cast<float>(sum.squaredNorm());
-        Direction const h = (sum / std::copysign(sum.norm(), sum.z())).cast<float>();
-        float const o = wo.dot(h), i = -wi.dot(h);
+        VectorDouble const half = sum / std::copysign(sum.norm(), sum.z());
+        auto const o = static_cast<float>(half.dot(wo.cast<double>()));
+        auto const i = static_cast<float>(-half.dot(wi.cast<double>()));
+        Direction const h = half.cast<float>();
         if (!(o > 0 && i > 0 && h.z() > 0)) return 0;
-        float const transmitted = 1 - fresnel(std::min(1.0f, o), far / near, 0.0f).unpolarised();
+        bool const thin = near < far;
+        float const F = fresnel(std::min(1.0f, thin ? o : i), thin ? far / near : near / far, 0.0f).unpolarised();
         float const seen = (1 + facets.lambda(wo, h)) * (1 + facets.lambda(wi, h));
-        return transmitted * facets.distribution(h).value * o * i * square(far) / (wo.z() * size2 * seen);
+        auto const size2 = static_cast<float>(sum.squaredNorm());
+        return (1 - F) * facets.distribution(h).value * o * i * square(far) / (wo.z() * size2 * seen);
     }
 };
 
