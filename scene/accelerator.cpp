@@ -265,6 +265,7 @@ struct Accelerator::Implementation {
         auto const normal_map = placed.to_object.linear().transpose();
         SurfacePoint& point = hit.point;
         point.position = placed.to_world * point.position;
+        if (point.size > 0) point.size *= placed.to_world.linear().norm();
         point.geometric_normal = (normal_map * point.geometric_normal).normalized();
         point.normal = (normal_map * point.normal).normalized();
         if (!hit.shape->parametrised) return;

@@ -19,11 +19,13 @@ struct HitCoordinates {
 inline void set_plain(SurfacePoint& point, Vector const& position, Direction const& normal) {
     point.position = position;
     point.geometric_normal = point.normal = normal;
+    point.size = 0;
 }
 
 inline void locate(Sphere const& s, Vector const& on_ray, HitCoordinates const&, SurfacePoint& point) {
     Direction const n = (on_ray - s.centre).normalized();
     set_plain(point, s.centre + s.radius * n, n);
+    point.size = s.radius;
 }
 inline void locate(Quad const& q, Vector const&, HitCoordinates const& hit, SurfacePoint& point) {
     // Embree's quad is the triangles (0 1 3), parametrised by (u, v), and (2 3 1), by (1 - u, 1 - v).
