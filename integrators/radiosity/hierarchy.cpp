@@ -107,11 +107,16 @@ void Hierarchy::close(PatchMesh const& mesh, PatchTracer const& tracer) {
     });
     auto const row_sums = [&] { return gather(Spectra::Ones(scale_.size(), 1)).col(0).eval(); };
     closure_defect_ = (wanted - row_sums()).abs().maxCoeff();
-    constexpr int rounds = 8;  // each shrinks the defect severalfold
+    constexpr int rounds = 8;        // each shrinks the defect severalfold
+    constexpr float widest = 1.25f;  // beyond, a row is not inexact but that of a patch against another surface
     for (int k = 0; k < rounds; ++k) {
         Eigen::ArrayXd const found = row_sums();
         scale_ *= (found > 0).select((wanted / found.max(1e-300)).sqrt(), 1.0).cast<float>();
+        scale_ = scale_.min(widest);
     }
+    // Never more than there is: the solvers rely on it.
+    Eigen::ArrayXd const found = row_sums();
+    scale_ *= (found > wanted).select(wanted / found.max(1e-300), 1.0).cast<float>();
 }
 
 }  // namespace iride::radiosity

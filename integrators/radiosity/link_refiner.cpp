@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include <array>
 #include <atomic>
 
 #include "integrators/radiosity/closed_forms.h"
@@ -13,7 +14,8 @@ namespace iride::radiosity {
 
 namespace {
 
-constexpr int points = 4;  // of each node at which the kernel is looked at
+constexpr int points = 4;              // of each node at which the kernel is looked at
+constexpr double missed_share = 0.05;  // of the smaller area, as exchange of nodes that may touch
 
 }  // namespace
 
@@ -87,19 +89,44 @@ double LinkRefiner::exchange(PatchNode const& r, PatchNode const& s) const {
     return std::min({r.area * s.area * sum / (pi_double * of_r * of_s), r.area, s.area});
 }
 
-// Two patches: the contour sum of the larger from four points of the smaller.
-double LinkRefiner::near_exchange(PatchNode const& r, PatchNode const& s) const {
-    bool const r_smaller = r.area < s.area;
-    Patch const &to = patch(r_smaller ? s : r, 0, 1), &from = patch(r_smaller ? r : s, 0, 1);
-    auto const polygon = mesh_.polygon(to);
-    constexpr float low = 0.21132487f, high = 0.78867513f;  // Gauss's two nodes
-    double sum = 0;
-    for (Sample2 const u : {Sample2{low, low}, {high, low}, {low, high}, {high, high}}) {
-        VectorDouble const at = point_on(mesh_, from, u);
-        if (to.normal.dot(at - to.centre) <= 0) continue;
-        sum += std::abs(patch_to_polygon(at, from.normal, polygon)) / 4;
+// Two patches: the contour sum of the larger from nine places of the smaller. Where a shadow's edge may lie between
+// them (0 < seen < 1), lines of sight for each place.
+double LinkRefiner::near_exchange(int r, int s, double seen) const {
+    PatchNode const &a = tree_.node[static_cast<std::size_t>(r)], &b = tree_.node[static_cast<std::size_t>(s)];
+    Patch const &to = patch(a.area < b.area ? b : a, 0, 1), &from = patch(a.area < b.area ? a : b, 0, 1);
+    auto const polygon = mesh_.polygon(to), corner = mesh_.polygon(from);
+    constexpr std::array<double, 3> node{0.1127016653792583, 0.5, 0.8872983346207417},
+        weight{5. / 18, 8. / 18, 5. / 18};  // Gauss's rule of three points on (0, 1)
+    double sum = 0, total = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j) {
+            // Bilinear; in a triangle the third and fourth corners are one, and the Jacobian falls towards it.
+            double const u = node[i], v = node[j];
+            VectorDouble const at =
+                (1 - v) * ((1 - u) * corner[0] + u * corner[1]) + v * ((1 - u) * corner.back() + u * corner[2]);
+            double const w = weight[i] * weight[j] * (from.corners == 3 ? 1 - v : 1);
+            total += w;
+            if (to.normal.dot(at - to.centre) <= 0) continue;
+            double const share =
+                seen > 0 && seen < 1 ? sight_from(at, from, to, r + static_cast<int>(3 * i + j)) : seen;
+            if (share > 0) sum += w * share * std::abs(patch_to_polygon(at, from.normal, polygon));
+        }
+    return std::min(sum / total * from.area, to.area);
+}
+
+double LinkRefiner::sight_from(VectorDouble const& at, Patch const& from, Patch const& to, int series) const {
+    constexpr std::array<Sample2, 4> place{Sample2{.25f, .3f}, {.2f, .8f}, {.7f, .2f}, {.8f, .75f}};
+    int free = 0, facing = 0;
+    for (Sample2 const& p : place) {
+        // Shifted around, so that pairs do not all look at the same places.
+        float const shift = static_cast<float>(series % 16) / 16;
+        VectorDouble const end =
+            point_on(mesh_, to, {std::fmod(p.x + shift, 1.0f), std::fmod(p.y + 0.618f * shift, 1.0f)});
+        if (from.normal.dot(end - at) <= 0) continue;
+        ++facing;
+        free += tracer_.visible(at, from.normal, end, to.normal);
     }
-    return std::min(sum * from.area, to.area);
+    return facing > 0 ? static_cast<double>(free) / facing : 0;
 }
 
 double LinkRefiner::visibility(int r, int s) const {
@@ -134,7 +161,7 @@ void LinkRefiner::refine(Pair pair, OnLink const& link, OnPair const& go_on) con
     bool const both_leaves = r.is_leaf() && s.is_leaf();
     double const distance = (s.centre - r.centre).norm(), size = r.radius + s.radius;
     bool const near = distance < 2 * size;
-    double G = both_leaves && near ? near_exchange(r, s) : exchange(r, s);
+    double const G = exchange(r, s);
     auto const a = static_cast<std::size_t>(pair.r), b = static_cast<std::size_t>(pair.s);
     double const strength = std::max(takes_[a] * sends_[b], takes_[b] * sends_[a]);
     bool const splittable = !both_leaves;
@@ -152,18 +179,21 @@ void LinkRefiner::refine(Pair pair, OnLink const& link, OnPair const& go_on) con
     bool const rough = (!r.flat && !r.is_leaf()) || (!s.flat && !s.is_leaf());
     if (splittable && rough) {
         // What the points of a curved node say may be far off: the most that can go over is what counts.
-        double const most =
-            std::min({r.area, s.area, r.area * s.area / (pi_double * std::max(1e-300, distance * distance))});
-        if (most * strength > allowed_) return split();
-    } else if (splittable && G * strength * std::min(1.0, size / distance) > allowed_) {
-        return split();
+        double const gap = std::max(0.0, distance - size), spread = pi_double * gap * gap;
+        double const from_r = r.area * sends_[a] * takes_[b] * (s.area < spread ? s.area / spread : 1),
+                     from_s = s.area * sends_[b] * takes_[a] * (r.area < spread ? r.area / spread : 1);
+        if (std::max(from_r, from_s) > allowed_) return split();
+    } else if (splittable) {
+        // Where nodes may touch, a few points can miss all that goes over.
+        double const missed = distance < size ? missed_share * std::min(r.area, s.area) : 0;
+        if (std::max(G, missed) * strength * std::min(1.0, size / distance) > allowed_) return split();
     }
-    if (G <= 0) return;
+    if (G <= 0 && !(both_leaves && near)) return;
     double const seen = visibility(pair.r, pair.s);
     bool const shadow_edge = seen > 0 && seen < 1;
     if (splittable && shadow_edge && G * strength > allowed_) return split();
-    G *= seen;
-    if (G > 0) link(Link{pair.r, pair.s, static_cast<float>(G)});
+    double const through = both_leaves && near ? near_exchange(pair.r, pair.s, seen) : G * seen;
+    if (through > 0) link(Link{pair.r, pair.s, static_cast<float>(through)});
 }
 
 std::vector<std::vector<LinkRefiner::Link>> LinkRefiner::links() const {
