@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // iride radiosity SCENE: patches, form factors and the solution for every wavelength, as a summary or as JSON.
 #include "integrators/radiosity/radiosity.h"
+#include "base/atomic_file.h"
+#include "integrators/radiosity/solution_file.h"
 
 #include <fmt/format.h>
 
@@ -19,6 +21,7 @@ using namespace radiosity;
 struct Options {
     std::string scene;
     Settings settings;
+    std::string save;
     bool json = false;
 };
 
@@ -70,8 +73,14 @@ void print_summary(SceneRadiosity const& solution, Settings const& settings, dou
 int run(Options const& o) {
     auto const scene = load_scene(find_scene(o.scene));
     RenderPlan const plan = make_plan(*scene);
+    if (!o.save.empty()) {
+        if (std::filesystem::path(o.save).extension() != ".ply")
+            throw InputError({}, "--save", fmt::format("found '{}', but a name ending in .ply is wanted", o.save));
+        check_writable(o.save);
+    }
     auto const start = std::chrono::steady_clock::now();
     SceneRadiosity const solution(*scene, plan.wavelengths, o.settings);
+    if (!o.save.empty()) save_solution(o.save, *scene, *solution.field());
     if (o.json)
         print_json(*scene, solution, o.settings);
     else
@@ -139,6 +148,7 @@ Command add_radiosity(CLI::App& app) {
     parser->add_option("--wavelengths", s.wavelengths, "how many, evenly spaced where lamps and observer overlap")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
+    parser->add_option("--save", o->save, "PLY file to write, for iride render --solution and other programs");
     parser->add_flag("--json", o->json, "print every patch with its spectrum as JSON");
     return {parser, [o] { return run(*o); }};
 }

@@ -89,44 +89,30 @@ double LinkRefiner::exchange(PatchNode const& r, PatchNode const& s) const {
     return std::min({r.area * s.area * sum / (pi_double * of_r * of_s), r.area, s.area});
 }
 
-// Two patches: the contour sum of the larger from nine places of the smaller. Where a shadow's edge may lie between
-// them (0 < seen < 1), lines of sight for each place.
+// Two patches: the contour sum of the larger from places of the smaller; where something may stand between (seen < 1),
+// from places of chance with a line of sight each, since an open strip may be narrow.
 double LinkRefiner::near_exchange(int r, int s, double seen) const {
     PatchNode const &a = tree_.node[static_cast<std::size_t>(r)], &b = tree_.node[static_cast<std::size_t>(s)];
     Patch const &to = patch(a.area < b.area ? b : a, 0, 1), &from = patch(a.area < b.area ? a : b, 0, 1);
-    auto const polygon = mesh_.polygon(to), corner = mesh_.polygon(from);
-    constexpr std::array<double, 3> node{0.1127016653792583, 0.5, 0.8872983346207417},
-        weight{5. / 18, 8. / 18, 5. / 18};  // Gauss's rule of three points on (0, 1)
-    double sum = 0, total = 0;
-    for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 3; ++j) {
-            // Bilinear; in a triangle the third and fourth corners are one, and the Jacobian falls towards it.
-            double const u = node[i], v = node[j];
-            VectorDouble const at =
-                (1 - v) * ((1 - u) * corner[0] + u * corner[1]) + v * ((1 - u) * corner.back() + u * corner[2]);
-            double const w = weight[i] * weight[j] * (from.corners == 3 ? 1 - v : 1);
-            total += w;
-            if (to.normal.dot(at - to.centre) <= 0) continue;
-            double const share =
-                seen > 0 && seen < 1 ? sight_from(at, from, to, r + static_cast<int>(3 * i + j)) : seen;
-            if (share > 0) sum += w * share * std::abs(patch_to_polygon(at, from.normal, polygon));
+    auto const polygon = mesh_.polygon(to);
+    constexpr int grid = 4;
+    double sum = 0;
+    for (int k = 0; k < grid * grid; ++k) {
+        std::uint64_t const bits =
+            hash_words(static_cast<std::uint64_t>(r), static_cast<std::uint64_t>(s), static_cast<std::uint64_t>(k));
+        auto const number = [&](int shift) { return static_cast<float>((bits >> shift) & 0xffff) * 0x1p-16f; };
+        bool const open = seen == 1;
+        Sample2 const u{(static_cast<float>(k % grid) + (open ? .5f : number(0))) / grid,
+                        (static_cast<float>(k / grid) + (open ? .5f : number(16))) / grid};
+        VectorDouble const at = point_on(mesh_, from, u);
+        if (to.normal.dot(at - to.centre) <= 0) continue;
+        if (!open) {
+            VectorDouble const end = point_on(mesh_, to, {number(32), number(48)});
+            if (from.normal.dot(end - at) <= 0 || !tracer_.visible(at, from.normal, end, to.normal)) continue;
         }
-    return std::min(sum / total * from.area, to.area);
-}
-
-double LinkRefiner::sight_from(VectorDouble const& at, Patch const& from, Patch const& to, int series) const {
-    constexpr std::array<Sample2, 4> place{Sample2{.25f, .3f}, {.2f, .8f}, {.7f, .2f}, {.8f, .75f}};
-    int free = 0, facing = 0;
-    for (Sample2 const& p : place) {
-        // Shifted around, so that pairs do not all look at the same places.
-        float const shift = static_cast<float>(series % 16) / 16;
-        VectorDouble const end =
-            point_on(mesh_, to, {std::fmod(p.x + shift, 1.0f), std::fmod(p.y + 0.618f * shift, 1.0f)});
-        if (from.normal.dot(end - at) <= 0) continue;
-        ++facing;
-        free += tracer_.visible(at, from.normal, end, to.normal);
+        sum += std::abs(patch_to_polygon(at, from.normal, polygon));
     }
-    return facing > 0 ? static_cast<double>(free) / facing : 0;
+    return std::min(sum / (grid * grid) * from.area, to.area);
 }
 
 double LinkRefiner::visibility(int r, int s) const {

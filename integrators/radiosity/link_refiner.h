@@ -26,7 +26,6 @@ class LinkRefiner {
     bool never_face(PatchNode const& a, PatchNode const& b) const;
     double exchange(PatchNode const& r, PatchNode const& s) const;
     double near_exchange(int r, int s, double seen) const;
-    double sight_from(VectorDouble const& at, Patch const& from, Patch const& to, int series) const;
     double visibility(int r, int s) const;
     Patch const& patch(PatchNode const& n, int k, int of) const;
 

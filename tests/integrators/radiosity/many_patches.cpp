@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "integrators/radiosity/radiosity.h"
+#include "integrators/radiosity/solution_file.h"
 #include "support/scenes.h"
 
 using namespace iride;
@@ -59,10 +60,9 @@ TEST_CASE("radiosity says what it approximates, ignores or cannot place", "[inpu
         auto const scene = test::scene_from(fmt::format(
             R"({{"camera":{{"eye":[0.5,0.5,2],"target":[0.5,0.5,0],"field_deg":60}},"materials":{{{}}},"shapes":[{}]}})",
             materials, shapes));
+        SceneRadiosity const solution(*scene, visible_range, {.patches = 12, .wavelengths = 2});
         std::string all;
-        for (std::string const& r :
-             SceneRadiosity(*scene, visible_range, {.patches = 12, .wavelengths = 2}).report().remarks)
-            all += r + "\n";
+        for (std::string const& r : solution.report().remarks) all += r + "\n";
         return all;
     };
     std::string const floor = R"({"type":"quad","material":"m","corners":[[0,0,0],[1,0,0],[1,1,0],[0,1,0]],
@@ -70,9 +70,42 @@ TEST_CASE("radiosity says what it approximates, ignores or cannot place", "[inpu
                       plain = R"("m":{"type":"diffuse","reflectance":0.5})";
     CHECK_THAT(remarks(plain, floor), Contains("the scene leaks: closure defect 1 at patch"));
     CHECK_THAT(remarks(plain, floor + "," + floor), Contains("duplicate patches"));
-    CHECK_THAT(remarks(R"("m":{"type":"conductor","metal":"Au"})", floor),
+    CHECK_THAT(remarks(R"("m":{"type":"conductor","ior":"Au"})", floor),
                Contains("'m' (conductor) is a mirror") && Contains("no surface is diffuse"));
     CHECK_THAT(remarks(R"("m":{"type":"dielectric","ior":1.5})", floor), Contains("'m' (dielectric) transmits"));
     CHECK_THAT(remarks(R"("m":{"type":"plastic","reflectance":0.5})", floor),
                Contains("'m' (plastic) is taken for a diffuse surface"));
+}
+
+TEST_CASE("a saved solution shows the same picture, and no other scene's", "[input]") {
+    using Catch::Contains;
+    auto const scene = load_scene(find_scene("cube-ceiling"));
+    scene->film.width = scene->film.height = 8;
+    SceneRadiosity const solution(*scene, visible_range, {.patches = 60, .wavelengths = 4, .fineness = 64});
+    test::TemporaryFolder const folder;
+    auto const path = folder.path() / "solution.ply";
+    save_solution(path, *scene, *solution.field());
+    auto const picture = [&](std::shared_ptr<RadiosityField const> field) {
+        RenderPlan const plan = make_plan(*scene);
+        Film film = make_film(*scene);
+        render(*scene, plan, *show(std::move(field)), {.spp = 2}, film);
+        return film;
+    };
+    Film const a = picture(solution.field()), b = picture(load_solution(path, *scene));
+    for (int p = 0; p < 64; ++p) CHECK(a.mean(p % 8, p / 8).Y == b.mean(p % 8, p / 8).Y);
+    auto const refused = [&](std::filesystem::path const& file, Scene const& other) {
+        try {
+            load_solution(file, other);
+        } catch (InputError const& error) {
+            return std::string(error.what());
+        }
+        return std::string("accepted");
+    };
+    CHECK_THAT(refused(path, *load_scene(find_scene("room"))), Contains("solution of another scene"));
+    std::ifstream in(path, std::ios::binary);
+    std::string const whole((std::istreambuf_iterator<char>(in)), {});
+    CHECK_THAT(refused(folder.write("short.ply", whole.substr(0, whole.size() - 9)), *scene), Contains("too early"));
+    CHECK_THAT(refused(folder.write("long.ply", whole + "x"), *scene), Contains("damaged"));
+    CHECK_THAT(refused(folder.write("other.ply", "ply\nformat ascii 1.0\n"), *scene), Contains("no saved solution"));
+    CHECK_THAT(refused(folder.path() / "none.ply", *scene), Contains("cannot be read"));
 }
