@@ -15,6 +15,8 @@
 #include "base/atomic_file.h"
 #include "film/exr.h"
 #include "film/preview.h"
+#include "integrators/radiosity/radiosity.h"
+#include "integrators/radiosity/solution_file.h"
 #include "integrators/render.h"
 
 namespace iride {
@@ -22,7 +24,7 @@ namespace iride {
 namespace {
 
 struct Options {
-    std::string scene, output, integrator, size, colourspace = "ACEScg", view, ocio, preview, report;
+    std::string scene, output, integrator, size, colourspace = "ACEScg", view, ocio, preview, report, solution;
     int spp = 0, threads = 0;
     double seconds = 0, error = 0;
     std::int64_t seed = -1;
@@ -148,7 +150,10 @@ int run_render(Options const& o) {
     if (!out.preview.empty()) display = ColourConfig(o.ocio).to_display("", o.view);
     RenderPlan const plan = make_plan(*scene);
     std::string const name = o.integrator.empty() ? scene->render.integrator : o.integrator;
-    auto const integrator = make_integrator(name, *scene, plan);
+    if (!o.solution.empty() && name != "radiosity")
+        fail("--solution", fmt::format("found integrator '{}', allowed: radiosity", name));
+    auto const integrator = o.solution.empty() ? make_integrator(name, *scene, plan)
+                                               : radiosity::show(radiosity::load_solution(o.solution, *scene));
     if (!o.quiet)
         for (std::string const& remark : scene->remarks) fmt::print(stderr, "note: {}\n", remark);
 
@@ -212,6 +217,7 @@ Command add_render(CLI::App& app) {
     parser->add_option("--view", o->view, "OpenColorIO view of the preview (default: the config's, ACES SDR)");
     parser->add_option("--ocio", o->ocio, "OpenColorIO config (default: $OCIO, else the shipped one)");
     parser->add_option("--preview", o->preview, "PNG file to write through the view");
+    parser->add_option("--solution", o->solution, "with --integrator radiosity: what iride radiosity --save wrote");
     parser->add_option("--report", o->report, "JSON file to write: times, rays, rejected samples, error");
     parser->add_flag("--quiet", o->quiet, "print errors only");
     return {parser, [o] { return run_render(*o); }};

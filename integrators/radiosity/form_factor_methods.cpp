@@ -7,39 +7,31 @@
 #include <array>
 
 #include "base/warp.h"
+#include "integrators/radiosity/global_lines.h"
 #include "integrators/radiosity/polygon_form_factor.h"
 
 namespace iride::radiosity {
 
-namespace {
-
-struct WeightedDirection {
-    Vector direction;  // in the patch's frame
-    double weight;
-};
-
-// Row after row, in parallel; `row(i, sums)` adds to sums[j].
-template <class RowOf>
-FormFactors assemble(PatchMesh const& mesh, RowOf const& row) {
-    std::size_t const n = mesh.patch.size();
-    std::vector<std::vector<std::pair<int, double>>> rows(n);
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, 16), [&](auto const& range) {
-        std::vector<double> sums(n, 0.0);
+FormFactors assemble(PatchMesh const& receivers, std::size_t columns, RowOfFactors const& row) {
+    std::size_t const n = receivers.patch.size();
+    using Entry = std::pair<int, double>;
+    std::vector<std::vector<Entry>> rows(n);
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, 64), [&](auto const& range) {
+        RowSums sums(columns);
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
-            row(i, sums);
-            for (std::size_t j = 0; j < n; ++j)
-                if (sums[j] != 0) {
-                    rows[i].emplace_back(static_cast<int>(j), sums[j]);
-                    sums[j] = 0;
-                }
+            row(receivers, i, sums);
+            rows[i].reserve(sums.size());
+            sums.take([&](int j, double value) { rows[i].emplace_back(j, value); });
         }
     });
-    FormFactors F(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(n));
+    FormFactors F(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(columns));
     std::vector<Eigen::Index> sizes;
     for (auto const& r : rows) sizes.push_back(static_cast<Eigen::Index>(r.size()));
     F.reserve(sizes);
-    for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t i = 0; i < n; ++i) {
         for (auto const& [j, value] : rows[i]) F.insert(static_cast<Eigen::Index>(i), j) = value;
+        std::vector<Entry>().swap(rows[i]);
+    }
     F.makeCompressed();
     return F;
 }
@@ -55,8 +47,15 @@ VectorDouble point_on(PatchMesh const& mesh, Patch const& p, Sample2 u) {
     return v[0] + static_cast<double>(b.x()) * (v[k] - v[0]) + static_cast<double>(b.y()) * (v[k + 1] - v[0]);
 }
 
-FormFactors by_rays(PatchMesh const& mesh, PatchTracer const& tracer, int count) {
-    return assemble(mesh, [&](std::size_t i, std::vector<double>& sums) {
+namespace {
+
+struct WeightedDirection {
+    Vector direction;  // in the patch's frame
+    double weight;
+};
+
+RowOfFactors rays(PatchTracer const& tracer, int count) {
+    return [&tracer, count](PatchMesh const& mesh, std::size_t i, RowSums& row) {
         Patch const& p = mesh.patch[i];
         Frame const frame = Frame::around(p.normal.cast<float>());
         for (int k = 0; k < count; ++k) {
@@ -64,21 +63,20 @@ FormFactors by_rays(PatchMesh const& mesh, PatchTracer const& tracer, int count)
             VectorDouble const from = point_on(mesh, p, sampler.next2());
             Direction const way = frame.to_world(to_cosine_hemisphere(sampler.next2()));
             auto const hit = tracer.closest(from, p.normal, way.cast<double>());
-            if (hit && hit->patch >= 0) sums[static_cast<std::size_t>(hit->patch)] += 1.0 / count;
+            if (hit && hit->patch >= 0) row.add(hit->patch, 1.0 / count);
         }
-    });
+    };
 }
 
-FormFactors from_centres(PatchMesh const& mesh, PatchTracer const& tracer,
-                         std::vector<WeightedDirection> const& directions) {
-    return assemble(mesh, [&](std::size_t i, std::vector<double>& sums) {
+RowOfFactors from_centres(PatchTracer const& tracer, std::vector<WeightedDirection> directions) {
+    return [&tracer, directions = std::move(directions)](PatchMesh const& mesh, std::size_t i, RowSums& row) {
         Patch const& p = mesh.patch[i];
         Frame const frame = Frame::around(p.normal.cast<float>());
         for (WeightedDirection const& w : directions) {
             auto const hit = tracer.closest(p.centre, p.normal, frame.to_world(w.direction).cast<double>());
-            if (hit && hit->patch >= 0) sums[static_cast<std::size_t>(hit->patch)] += w.weight;
+            if (hit && hit->patch >= 0) row.add(hit->patch, w.weight);
         }
-    });
+    };
 }
 
 std::vector<WeightedDirection> hemicube(int n) {
@@ -106,11 +104,12 @@ std::vector<WeightedDirection> hemisphere(int n) {
     return parts;
 }
 
-FormFactors by_hemicube(PatchMesh const& mesh, PatchTracer const& tracer, int n) {
-    return from_centres(mesh, tracer, hemicube(n));
-}
-FormFactors by_hemisphere(PatchMesh const& mesh, PatchTracer const& tracer, int n) {
-    return from_centres(mesh, tracer, hemisphere(n));
+RowOfFactors hemicube_rows(PatchTracer const& tracer, int n) { return from_centres(tracer, hemicube(n)); }
+RowOfFactors hemisphere_rows(PatchTracer const& tracer, int n) { return from_centres(tracer, hemisphere(n)); }
+
+template <RowOfFactors (*rows)(PatchTracer const&, int)>
+FormFactors by_rows(PatchMesh const& mesh, PatchTracer const& tracer, int fineness) {
+    return assemble(mesh, mesh.patch.size(), rows(tracer, fineness));
 }
 
 // Share of unoccluded lines between points of two patches.
@@ -132,58 +131,53 @@ FormFactors analytic(PatchMesh const& mesh, PatchTracer const& tracer, int lines
     std::vector<std::vector<VectorDouble>> polygons;
     for (Patch const& p : mesh.patch) polygons.push_back(mesh.polygon(p));
     // A pair is worked out once, in the order of its patches, so that reciprocity is exact.
-    return assemble(mesh, [&](std::size_t i, std::vector<double>& sums) {
+    return assemble(mesh, n, [&](PatchMesh const&, std::size_t i, RowSums& row) {
         for (std::size_t j = 0; j < n; ++j) {
             std::size_t const a = std::min(i, j), b = std::max(i, j);
             Patch const &p = mesh.patch[a], &q = mesh.patch[b];
             double const exchange = a == b ? 0 : exchange_area(polygons[a], polygons[b]);
             if (exchange <= 0) continue;
-            sums[j] = exchange / mesh.patch[i].area *
-                      visibility(mesh, tracer, p, q, static_cast<std::uint32_t>(a * n + b), lines);
+            row.add(static_cast<int>(j),
+                    exchange / mesh.patch[i].area *
+                        visibility(mesh, tracer, p, q, static_cast<std::uint32_t>(a * n + b), lines));
         }
     });
 }
 
-// Between the meetings of a line, two patches face each other: F_ij is the share of the lines that leave i and meet j.
+// F_ij is the share of the lines that leave i and meet j.
 FormFactors by_global_lines(PatchMesh const& mesh, PatchTracer const& tracer, int lines_per_patch) {
     auto const n = static_cast<Eigen::Index>(mesh.patch.size());
-    VectorDouble low = mesh.position.front(), high = low;
-    for (VectorDouble const& p : mesh.position) low = low.cwiseMin(p), high = high.cwiseMax(p);
-    VectorDouble const centre = (low + high) / 2;
-    double const radius = (high - low).norm() / 2 * 1.001;  // clear of the corners
+    GlobalLines const lines(mesh, tracer);
     std::vector<Eigen::Triplet<double>> pairs;
     Eigen::ArrayXd leaving = Eigen::ArrayXd::Zero(n);
     auto const total = static_cast<std::uint32_t>(n * lines_per_patch);
-    for (std::uint32_t k = 0; k < total; ++k) {
-        Sampler sampler(SamplerKind::sobol, 2, 0, k);
-        VectorDouble from = centre + radius * to_sphere(sampler.next2()).cast<double>();
-        VectorDouble const end = centre + radius * to_sphere(sampler.next2()).cast<double>();
-        VectorDouble const way = (end - from).normalized();
-        int before = -1;  // the patch that the line leaves
-        VectorDouble clear = VectorDouble::Zero();
-        for (auto hit = tracer.closest(from, clear, way); hit; hit = tracer.closest(from, clear, way)) {
-            if (before >= 0 && hit->patch >= 0) {
-                pairs.emplace_back(before, hit->patch, 1.0);
-                pairs.emplace_back(hit->patch, before, 1.0);
-            }
-            if (hit->patch >= 0) ++leaving[hit->patch];
-            before = hit->other_side;
-            if (before >= 0) ++leaving[before];
-            from = hit->position;
-            clear = way;
-        }
-    }
+    for (std::uint32_t k = 0; k < total; ++k)
+        lines.follow(
+            0, k, [&](int i) { ++leaving[i]; },
+            [&](int i, int j) {
+                pairs.emplace_back(i, j, 1.0);
+                pairs.emplace_back(j, i, 1.0);
+            });
     FormFactors F(n, n);
     F.setFromTriplets(pairs.begin(), pairs.end());
     return (leaving > 0).select(leaving.max(1).inverse(), 0.0).matrix().asDiagonal() * F;
 }
 
-constexpr std::array<FormFactorMethod, 5> table{{
-    {"rays", "local lines from points spread over each patch", 1024, by_rays},
-    {"hemicube", "a ray through every cell of a cube over each centre", 64, by_hemicube},
-    {"hemisphere", "equal parts of the disc under each centre's hemisphere", 64, by_hemisphere},
-    {"global-lines", "lines through the whole scene, each serving all it meets", 1024, by_global_lines},
-    {"analytic", "contour integrals, times the share of free lines", 16, analytic},
+double all_patches(double patches, int) { return patches; }
+double a_ray_each(double patches, int rays) { return std::min<double>(patches, rays); }
+double a_cell_each(double patches, int n) { return std::min(patches, 3.0 * n * n); }
+
+constexpr std::array<FormFactorMethod, 6> table{{
+    {"rays", "local lines from points spread over each patch", 1024, a_ray_each, rays, by_rows<rays>},
+    {"hemicube", "a ray through every cell of a cube over each centre", 64, a_cell_each, hemicube_rows,
+     by_rows<hemicube_rows>},
+    {"hemisphere", "equal parts of the disc under each centre's hemisphere", 64, a_cell_each, hemisphere_rows,
+     by_rows<hemisphere_rows>},
+    {"global-lines", "lines through the whole scene, each serving all it meets", 1024, all_patches, nullptr,
+     by_global_lines},
+    {"analytic", "contour integrals, times the share of free lines", 16, all_patches, nullptr, analytic},
+    {"hierarchical", "links between groups of patches, refined by the power they carry: for many patches", 4, nullptr,
+     nullptr, nullptr},
 }};
 
 }  // namespace
@@ -192,17 +186,23 @@ std::span<FormFactorMethod const> form_factor_methods() { return table; }
 
 void make_reciprocal(System& system) {
     Eigen::VectorXd const area = system.area.matrix(), sums = system.form_factors * Eigen::VectorXd::Ones(area.size());
-    FormFactors const one_way = area.asDiagonal() * system.form_factors;
-    FormFactors power = 0.5 * (one_way + FormFactors(one_way.transpose()));
+    FormFactors power = area.asDiagonal() * system.form_factors;
+    system.form_factors = FormFactors();
+    {
+        FormFactors const other_way = power.transpose();
+        power = FormFactors(0.5 * (power + other_way));
+    }
     Eigen::VectorXd const wanted = area.cwiseProduct(sums);
+    Eigen::VectorXd scale = Eigen::VectorXd::Ones(area.size());
     constexpr int rounds = 20;  // each shrinks the defect severalfold: below 1e-6 from per cents
     for (int k = 0; k < rounds; ++k) {
-        Eigen::VectorXd const found = power * Eigen::VectorXd::Ones(area.size());
-        Eigen::VectorXd const scale =
-            (found.array() > 0).select((wanted.array() / found.array().max(1e-300)).sqrt(), 1.0);
-        power = scale.asDiagonal() * power * scale.asDiagonal();
+        Eigen::ArrayXd const found = scale.array() * (power * scale).array();
+        scale.array() *= (found > 0).select((wanted.array() / found.max(1e-300)).sqrt(), 1.0);
     }
-    system.form_factors = area.cwiseInverse().asDiagonal() * power;
+    for (Eigen::Index i = 0; i < power.outerSize(); ++i)
+        for (FormFactors::InnerIterator G(power, i); G; ++G)
+            G.valueRef() = scale[i] / area[i] * G.value() * scale[G.col()];
+    system.form_factors = std::move(power);
 }
 
 }  // namespace iride::radiosity

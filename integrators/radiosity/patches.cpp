@@ -32,12 +32,11 @@ void add_side(PatchMesh& mesh, Faces const& faces, int shape, bool turned, int f
         Patch p{f.vertex, f.corners, shape, front >= 0, -1, VectorDouble::Zero(), VectorDouble::Zero(), 0};
         for (int& v : p.vertex) v += first;
         if (turned) std::reverse(p.vertex.begin(), p.vertex.begin() + p.corners);
-        auto const polygon = mesh.polygon(p);
-        for (VectorDouble const& v : polygon) p.centre += v / static_cast<double>(polygon.size());
-        VectorDouble const area = vector_area(polygon);
-        p.area = area.norm();
-        if (!(p.area > 0)) continue;  // a sliver of a mesh: nothing leaves it
-        p.normal = area / p.area;
+        measure(mesh, p);
+        if (!(p.area > 0)) {
+            if (front < 0) ++mesh.slivers;
+            continue;
+        }
         if (front >= 0) {
             p.opposite = front++;
             mesh.patch[static_cast<std::size_t>(p.opposite)].opposite = static_cast<int>(mesh.patch.size());
@@ -72,25 +71,36 @@ std::vector<VectorDouble> PatchMesh::polygon(Patch const& p) const {
     return corners;
 }
 
-PatchMesh make_patches(Scene const& scene, double size_m, std::size_t most) {
-    struct Placed {
-        Shape const* shape;
-        ShapeGeometry geometry;
-    };
+void measure(PatchMesh const& mesh, Patch& p) {
+    auto const polygon = mesh.polygon(p);
+    p.centre.setZero();
+    for (VectorDouble const& v : polygon) p.centre += v / static_cast<double>(polygon.size());
+    VectorDouble const area = vector_area(polygon);
+    p.area = area.norm();
+    p.normal = p.area > 0 ? VectorDouble(area / p.area) : VectorDouble(VectorDouble::Zero());
+}
+
+double expected_patches(Scene const& scene, double size_m) {
     double expected = 0;
     for (Shape const& s : scene.shapes) expected += expected_faces(s.geometry, size_m);
     for (InstancePlacement const& i : scene.instances)
         for (Shape const& s : scene.objects[static_cast<std::size_t>(i.object)].shapes)
             expected += expected_faces(s.geometry, size_m);
-    if (expected == 0) throw InputError({}, "", "radiosity: the scene has no surfaces");
-    if (expected > static_cast<double>(most))
-        throw InputError({}, "--size",
-                         fmt::format("patches of {:g} m would be about {:.3g}; allowed: {}", size_m, expected, most));
+    return expected;
+}
+
+PatchMesh make_patches(Scene const& scene, double size_m) {
+    struct Placed {
+        Shape const* shape;
+        ShapeGeometry geometry;
+    };
     std::vector<Placed> all;
     for (Shape const& s : scene.shapes) all.push_back({&s, s.geometry});
     for (InstancePlacement const& i : scene.instances)
         for (Shape const& s : scene.objects[static_cast<std::size_t>(i.object)].shapes)
             all.push_back({&s, placed(s.geometry, i.to_world, size_m)});
+
+    if (all.empty()) throw InputError({}, "", "radiosity: the scene has no surfaces");
 
     PatchMesh fronts;
     std::vector<Faces> faces;

@@ -26,13 +26,19 @@ struct PatchMesh {
     std::vector<VectorDouble> position;  // [vertex], m; sides and shapes share none
     std::vector<Patch> patch;
     std::vector<Shape const*> shape;
+    int slivers = 0;  // faces without area, left out
 
     std::vector<VectorDouble> polygon(Patch const& p) const;
 };
 
-// Throws InputError when more than `most` patches would come of it (with the number, before they are made), for
-// degenerate triangles of a mesh, and for a scene without surfaces.
-PatchMesh make_patches(Scene const& scene, double size_m, std::size_t most);
+// Fronts only, from the shapes' areas: within a factor of two.
+double expected_patches(Scene const& scene, double size_m);
+
+// Throws InputError for a scene without surfaces.
+PatchMesh make_patches(Scene const& scene, double size_m);
+
+// Normal, centre and area of a patch from its vertices.
+void measure(PatchMesh const& mesh, Patch& p);
 
 // Where a ray first meets a patch.
 struct PatchHit {

@@ -3,32 +3,41 @@
 
 #include <fmt/format.h>
 
+#include "integrators/radiosity/global_lines.h"
+#include "integrators/radiosity/hierarchy.h"
+#include "integrators/radiosity/memory.h"
+#include "integrators/radiosity/on_demand.h"
+#include "integrators/radiosity/patch_spectra.h"
+#include "integrators/radiosity/solvability.h"
+#include "integrators/radiosity/substructure.h"
 #include "integrators/radiosity/vertex_transfer.h"
 
 namespace iride::radiosity {
 
 namespace {
 
-constexpr std::size_t most_patches = 30000;  // their form factors fill 14 GB if all see all
-
-double total_area(Scene const& scene) {
-    double sum = 0;
-    constexpr double coarse = 1e9;  // m: the shapes' own faces, uncut
-    for (PatchMesh const mesh = make_patches(scene, coarse, most_patches); Patch const& p : mesh.patch) sum += p.area;
-    return sum;
-}
-
 double patch_size(Scene const& scene, Settings const& s) {
-    return s.size_m > 0 ? s.size_m : std::sqrt(total_area(scene) / s.patches);
+    if (s.size_m > 0) return s.size_m;
+    constexpr double coarse = 1e9;  // m: the shapes' own faces, uncut
+    double area = 0;
+    for (PatchMesh const mesh = make_patches(scene, coarse); Patch const& p : mesh.patch) area += p.area;
+    return std::sqrt(area / s.patches);
 }
 
 template <class Entry>
-Entry const& entry_of(std::span<Entry const> table, std::string const& name, char const* option) {
+Entry const* find(std::span<Entry const> table, std::string const& name) {
+    for (Entry const& e : table)
+        if (name == e.name) return &e;
+    return nullptr;
+}
+
+template <class... Tables>
+[[noreturn]] void unknown(char const* option, std::string const& name, Tables... tables) {
     std::vector<std::string> names;
-    for (Entry const& e : table) {
-        if (name == e.name) return e;
-        names.emplace_back(e.name);
-    }
+    auto const add = [&](auto const& table) {
+        for (auto const& e : table) names.emplace_back(e.name);
+    };
+    (add(tables), ...);
     throw InputError({}, option, fmt::format("unknown name '{}'{}", name, suggestion(name, names)));
 }
 
@@ -39,168 +48,173 @@ std::vector<double> evenly_spaced(WavelengthRange const& range, int count) {
     return nm;
 }
 
-// Albedo under even light: the mean of a sample's weight over cosine-distributed directions. Exact for Lambert's law.
-Lanes albedo(Material const& material, SurfacePoint const& point, Wavelengths const& wavelengths, bool back) {
-    constexpr std::uint32_t samples = 64;
-    Bsdf const bsdf = material.at(point, wavelengths);
-    Lanes sum;
-    for (std::uint32_t k = 0; k < samples; ++k) {
-        Sampler sampler(SamplerKind::sobol, 3, 0, k);
-        Direction wo = to_cosine_hemisphere(sampler.next2());
-        if (back && !material.traits.two_sided) wo.z() = -wo.z();
-        auto const sample = bsdf.sample(wo, {sampler.next(), sampler.next2()});
-        if (sample && (sample->wi.z() > 0) == (wo.z() > 0)) sum += sample->weight * (1.0f / samples);
-    }
-    return sum;
+int fineness_of(Settings const& s, FormFactorMethod const& m) { return s.fineness > 0 ? s.fineness : m.fineness; }
+
+void refuse_trapped_light(Scene const& scene, PatchMesh const& mesh, System const& system,
+                          std::vector<double> const& nm) {
+    if (auto const t = light_that_is_never_lost(system))
+        throw InputError({}, "radiosity",
+                         fmt::format("{} reflects {:g} at {:g} nm, and what it sends out is absorbed nowhere: such a "
+                                     "closed scene has no radiosity",
+                                     describe(scene, mesh, t->patch),
+                                     system.reflectance(static_cast<Eigen::Index>(t->patch), t->wavelength),
+                                     nm[static_cast<std::size_t>(t->wavelength)]));
 }
 
-// Irradiance from lamps without extent and from the environment.
-Irradiance outside_light(Scene const& scene, PatchTracer const& tracer, Patch const& p,
-                         Wavelengths const& wavelengths) {
-    constexpr std::uint32_t samples = 64;
-    Irradiance sum;
-    for (std::size_t l = 0; l < scene.lights.size(); ++l) {
-        Light const& light = scene.lights.light(static_cast<int>(l));
-        std::uint32_t const count = light.is_environment() ? samples : 1;
-        for (std::uint32_t k = 0; k < count; ++k) {
-            Sampler sampler(SamplerKind::sobol, 4, static_cast<std::uint32_t>(l), k);
-            auto const s = light.sample(p.centre.cast<float>(), wavelengths, sampler.next2());
-            if (!s || (s->density && !light.is_environment())) continue;  // lamps of extent are patches
-            float const cosine = s->wi.dot(p.normal.cast<float>());
-            if (cosine <= 0) continue;
-            auto const hit = tracer.closest(p.centre, p.normal, s->wi.cast<double>());
-            if (hit && (hit->position - p.centre).norm() < static_cast<double>(s->distance)) continue;
-            float const solid_angle = s->density ? 1 / s->density->value : 1;
-            sum += Irradiance(s->radiance.lane * (cosine * solid_angle / static_cast<float>(count)));
-        }
-    }
-    return sum;
+// The same where no form factors say whether the scene is closed: something must absorb.
+void refuse_white(Scene const& scene, PatchMesh const& mesh, System const& system) {
+    constexpr double white = 0.9999;
+    Eigen::Index i;
+    if (system.reflectance.rowwise().minCoeff().minCoeff(&i) > white)
+        throw InputError({}, "radiosity",
+                         fmt::format("{} and all others reflect everything: nothing absorbs the light",
+                                     describe(scene, mesh, static_cast<std::size_t>(i))));
 }
 
 }  // namespace
 
-SceneRadiosity::SceneRadiosity(Scene const& scene, WavelengthRange const& range, Settings const& settings)
-    : mesh_(make_patches(scene, patch_size(scene, settings), most_patches)),
-      tracer_(mesh_),
-      nm_(evenly_spaced(range, settings.wavelengths)) {
-    FormFactorMethod const& method = entry_of(form_factor_methods(), settings.form_factors, "--form-factors");
-    SolverEntry const& solver = entry_of(solvers(), settings.solver, "--solver");
-    read_spectra(scene);
-    system_.form_factors = method.compute(mesh_, tracer_, settings.fineness > 0 ? settings.fineness : method.fineness);
-    report_.reciprocity_defect = reciprocity_defect(system_);
-    report_.closure_defect = closure_defect(system_);
-    make_reciprocal(system_);
+SceneRadiosity::SceneRadiosity(Scene const& scene, WavelengthRange const& range, Settings const& settings) {
+    FormFactorMethod const* const method = find(form_factor_methods(), settings.form_factors);
+    SolverEntry const* const solver = find(solvers(), settings.solver);
+    StochasticEntry const* const stochastic = find(stochastic_solvers(), settings.solver);
+    if (!method) unknown("--form-factors", settings.form_factors, form_factor_methods());
+    if (!solver && !stochastic) unknown("--solver", settings.solver, solvers(), stochastic_solvers());
+    bool const stored = solver && !settings.on_demand;
+    double const size = patch_size(scene, settings);
+    auto const check_memory = [&](double patches) {
+        refuse_if_too_large(patches, settings.wavelengths, stored ? method : nullptr, fineness_of(settings, *method),
+                            settings.memory_bytes);
+    };
+    check_memory(expected_patches(scene, size));
+    mesh_ = make_patches(scene, size);
+    check_memory(static_cast<double>(mesh_.patch.size()));
+    tracer_ = std::make_unique<PatchTracer>(mesh_);
+    std::vector<double> const nm = evenly_spaced(range, settings.wavelengths);
+    system_ = patch_spectra(scene, mesh_, *tracer_, nm);
+    report_.remarks = approximations(scene, mesh_);
+    if (stored)
+        solve_stored(scene, nm, *method, *solver, settings);
+    else
+        refuse_white(scene, mesh_, system_);
+    if (stochastic) solve_by_lines(settings, *stochastic);
+    if (solver && settings.on_demand) solve_on_demand(*method, settings);
+    if (settings.substructuring > 0)
+        substructure(scene, nm, *method, settings);
+    else
+        field_ = std::make_shared<RadiosityField>(mesh_, nm, to_vertices(mesh_, radiosity_).max(0.0).cast<float>());
+}
+
+void SceneRadiosity::solve_stored(Scene const& scene, std::vector<double> const& nm, FormFactorMethod const& method,
+                                  SolverEntry const& solver, Settings const& settings) {
+    if (method.compute) {
+        system_.form_factors = method.compute(mesh_, *tracer_, fineness_of(settings, method));
+        report_.reciprocity_defect = reciprocity_defect(system_);
+        report_.closure_defect = closure_defect(system_);
+        say_what_leaks(scene);
+        make_reciprocal(system_);
+    } else {
+        if (solver.needs_matrix)
+            throw InputError({}, "--solver",
+                             fmt::format("'{}' wants form factors as a matrix, those by {} are none; allowed: "
+                                         "conjugate-gradients, jacobi",
+                                         solver.name, method.name));
+        auto const hierarchy = std::make_shared<Hierarchy>(
+            mesh_, *tracer_, system_,
+            HierarchyLimits{settings.link_tolerance, fineness_of(settings, method),
+                            settings.memory_bytes - memory_needed(static_cast<double>(mesh_.patch.size()),
+                                                                  settings.wavelengths, nullptr, 0)});
+        report_.links = hierarchy->links();
+        report_.closure_defect = hierarchy->closure_defect();
+        system_.transport = hierarchy;
+        say_what_leaks(scene);
+    }
+    refuse_trapped_light(scene, mesh_, system_, nm);
     Solution const solution = solve(system_, solver, settings.stop);
     radiosity_ = solution.radiosity;
     report_.iterations = solution.iterations;
     report_.residual = solution.residual;
-    at_vertex_ = to_vertices(mesh_, radiosity_).max(0.0).cast<float>();
 }
 
-void SceneRadiosity::read_spectra(Scene const& scene) {
-    auto const n = static_cast<Eigen::Index>(mesh_.patch.size()), w = static_cast<Eigen::Index>(nm_.size());
-    system_.area.resize(n);
-    system_.reflectance.resize(n, w);
-    system_.emission = Spectra::Zero(n, w);
-    for (Eigen::Index first = 0; first < w; first += lane_count) {
-        Eigen::Index const lanes = std::min<Eigen::Index>(lane_count, w - first);
-        LaneRegister nm{};
-        for (int k = 0; k < lane_count; ++k)
-            nm[k] = static_cast<float>(nm_[static_cast<std::size_t>(std::min<Eigen::Index>(first + k, w - 1))]);
-        Wavelengths const packet = wavelengths_at(nm, scene.grid);
-        for (Eigen::Index i = 0; i < n; ++i) {
-            Patch const& p = mesh_.patch[static_cast<std::size_t>(i)];
-            Shape const& shape = *mesh_.shape[static_cast<std::size_t>(p.shape)];
-            Direction const normal = (p.back ? -1.0 : 1.0) * p.normal.cast<float>();
-            SurfacePoint const point{p.centre.cast<float>(), normal, normal};
-            system_.area[i] = p.area;
-            Lanes const rho = albedo(scene.material(shape.material), point, packet, p.back);
-            Irradiance const arriving = outside_light(scene, tracer_, p, packet);
-            Radiance emitted;
-            if (shape.light >= 0)
-                emitted = scene.lights.light(shape.light).emitted(point, p.normal.cast<float>(), packet);
-            for (int k = 0; k < lanes; ++k) {
-                system_.reflectance(i, first + k) = static_cast<double>(rho[k]);
-                system_.emission(i, first + k) = pi_double * static_cast<double>(emitted[k]) +
-                                                 static_cast<double>(rho[k]) * static_cast<double>(arriving[k]);
-            }
-        }
-    }
-    constexpr double largest = 0.9999;  // beyond, a closed scene has no solution, or one of 1e4 bounces
-    if (double const rho = system_.reflectance.maxCoeff(); rho > largest) {
-        Eigen::Index i, k;
-        system_.reflectance.maxCoeff(&i, &k);
-        Shape const& shape = *mesh_.shape[static_cast<std::size_t>(mesh_.patch[static_cast<std::size_t>(i)].shape)];
-        throw InputError({},
-                         fmt::format("material '{}'", scene.materials[static_cast<std::size_t>(shape.material)].name),
-                         fmt::format("reflects {:g} at {:g} nm: a closed scene of it has no radiosity; allowed: at "
-                                     "most {}",
-                                     rho, nm_[static_cast<std::size_t>(k)], largest));
-    }
+// Rows that sum to less than 1 by more than their own error, when no environment is there to be seen.
+void SceneRadiosity::say_what_leaks(Scene const& scene) {
+    if (!scene.lights.environments().empty()) return;
+    constexpr double noticeable = 0.01;
+    Eigen::ArrayXd const sums = gathered(system_, Spectra::Ones(system_.patches(), 1)).col(0);
+    Eigen::Index worst;
+    double const lost = 1 - sums.minCoeff(&worst);
+    if (lost < noticeable) return;
+    double const area = (sums < 1 - noticeable).select(system_.area, 0.0).sum() / system_.area.sum();
+    report_.remarks.push_back(fmt::format(
+        "radiosity: the scene leaks: closure defect {:.2g} at {}; {:.2g} of the area sees out, and what leaves is lost",
+        lost, describe(scene, mesh_, static_cast<std::size_t>(worst)), area));
 }
 
-// Wachspress coordinates: barycentric in a triangle, bilinear in a rectangle, smooth and linear along edges in between.
-Radiance SceneRadiosity::radiance(PatchHit const& hit, Wavelengths const& wavelengths) const {
-    Patch const& p = mesh_.patch[static_cast<std::size_t>(hit.patch)];
-    auto const n = static_cast<std::size_t>(p.corners);
-    std::array<VectorDouble, 4> v;
-    for (std::size_t k = 0; k < n; ++k) v[k] = mesh_.position[static_cast<std::size_t>(p.vertex[k])];
-    auto const area = [&](VectorDouble const& a, VectorDouble const& b, VectorDouble const& c) {
-        return p.normal.dot((b - a).cross(c - a));
-    };
-    std::array<double, 4> side{}, weight{};
-    for (std::size_t k = 0; k < n; ++k) side[k] = std::max(0.0, area(hit.position, v[k], v[(k + 1) % n]));
-    double total = 0;
-    for (std::size_t k = 0; k < n; ++k) {
-        weight[k] = area(v[(k + n - 1) % n], v[k], v[(k + 1) % n]);
-        for (std::size_t j = 0; j < n; ++j)
-            if (j != k && j != (k + n - 1) % n) weight[k] *= side[j];
-        total += weight[k];
-    }
-    Radiance L;
-    if (!(total > 0)) return L;
-    auto const last = static_cast<float>(nm_.size()) - 2;
-    float const first_nm = static_cast<float>(nm_.front());
-    float const per_nm = nm_.size() < 2 ? 0 : 1 / static_cast<float>(nm_[1] - nm_[0]);
-    for (int lane = 0; lane < lane_count; ++lane) {
-        float const place = (wavelengths.nm[lane] - first_nm) * per_nm;
-        float const cell = std::clamp(std::floor(place), 0.0f, std::max(0.0f, last)), fraction = place - cell;
-        auto const column = static_cast<Eigen::Index>(cell), next = std::min(column + 1, at_vertex_.cols() - 1);
-        float b = 0;
-        for (std::size_t k = 0; k < n; ++k) {
-            auto const row = p.vertex[k];
-            b += static_cast<float>(weight[k] / total) *
-                 (at_vertex_(row, column) + fraction * (at_vertex_(row, next) - at_vertex_(row, column)));
-        }
-        L.lane[lane] = std::max(0.0f, b) * inverse_pi;
-    }
-    return L;
+void SceneRadiosity::solve_on_demand(FormFactorMethod const& method, Settings const& settings) {
+    if (settings.solver != "shooting")
+        throw InputError({}, "--on-demand",
+                         fmt::format("found solver '{}', allowed: shooting, the one that wants a row of form factors "
+                                     "at a time",
+                                     settings.solver));
+    if (!method.rows)
+        throw InputError(
+            {}, "--on-demand",
+            fmt::format("form factors by {} come all at once; allowed: rays, hemicube, hemisphere", method.name));
+    Solution const solution =
+        shoot_on_demand(system_, mesh_, method.rows(*tracer_, fineness_of(settings, method)), settings.stop);
+    radiosity_ = solution.radiosity;
+    report_.iterations = solution.iterations;
+    report_.residual = solution.residual;
 }
 
-namespace {
+void SceneRadiosity::solve_by_lines(Settings const& settings, StochasticEntry const& entry) {
+    GlobalLines const lines(mesh_, *tracer_);
+    LineSource const source{
+        [&](int from, Sampler& sampler) {
+            Patch const& p = mesh_.patch[static_cast<std::size_t>(from)];
+            VectorDouble const at = point_on(mesh_, p, sampler.next2());
+            Direction const way = Frame::around(p.normal.cast<float>()).to_world(to_cosine_hemisphere(sampler.next2()));
+            auto const hit = tracer_->closest(at, p.normal, way.cast<double>());
+            return hit ? hit->patch : -1;
+        },
+        [&](std::uint32_t series, std::uint32_t number, std::function<void(int, int)> const& faces) {
+            lines.follow(
+                series, number, [](int) {}, faces);
+        },
+        lines.meetings(1)};
+    StochasticSolution solution =
+        entry.solve(system_, source, static_cast<std::uint64_t>(settings.lines) * mesh_.patch.size(), settings.seed);
+    radiosity_ = std::move(solution.radiosity);
+    standard_error_ = std::move(solution.standard_error);
+    report_.lines = solution.lines;
+    report_.iterations = solution.iterations;
+}
 
-class Show final : public Integrator {
-  public:
-    Show(Scene const& scene, RenderPlan const& plan) : solution_(scene, plan.wavelengths, {}) {}
-    void follow(Scene const& scene, std::span<CameraPath> paths, RayStatistics& statistics) const override {
-        statistics.closest_rays += paths.size();
-        for (CameraPath& path : paths) {
-            auto const hit = solution_.tracer().closest(path.ray);
-            if (hit && hit->patch >= 0) path.radiance += solution_.radiance(*hit, path.wavelengths);
-            if (hit) continue;
-            for (int e : scene.lights.environments())
-                path.radiance += scene.lights.light(e).arriving(path.ray.direction, path.wavelengths);
-        }
+void SceneRadiosity::substructure(Scene const& scene, std::vector<double> const& nm, FormFactorMethod const& method,
+                                  Settings const& settings) {
+    if (!method.rows)
+        throw InputError(
+            {}, "--substructuring",
+            fmt::format("form factors by {} come all at once; allowed: rays, hemicube, hemisphere", method.name));
+    RowOfFactors const row = method.rows(*tracer_, fineness_of(settings, method));
+    Elements elements = whole_patches(mesh_);
+    Spectra b = radiosity_;
+    for (int level = 0; level < settings.substructuring; ++level) {
+        elements = split(elements, varying(elements, b, settings.contrast));
+        refuse_if_too_large(static_cast<double>(elements.mesh.patch.size()), settings.wavelengths, &method,
+                            fineness_of(settings, method), settings.memory_bytes);
+        FormFactors const of_elements = assemble(elements.mesh, mesh_.patch.size(), row);
+        system_.form_factors = factors_of_patches(system_, elements, of_elements);
+        system_.transport.reset();
+        refuse_trapped_light(scene, mesh_, system_, nm);
+        // Not conjugate gradients: the mean of the elements' rows is reciprocal only on average.
+        Solution const solution = solve(system_, *find(solvers(), "gauss-seidel"), settings.stop);
+        radiosity_ = solution.radiosity;
+        report_.iterations = solution.iterations;
+        report_.residual = solution.residual;
+        b = radiosity_of_elements(system_, elements, of_elements, radiosity_);
     }
-
-  private:
-    SceneRadiosity solution_;
-};
-
-}  // namespace
-
-std::unique_ptr<Integrator> make_radiosity(Scene const& scene, RenderPlan const& plan) {
-    return std::make_unique<Show>(scene, plan);
+    RadiosityField::AtVertex at_vertex = to_vertices(elements.mesh, b).max(0.0).cast<float>();
+    field_ = std::make_shared<RadiosityField>(std::move(elements.mesh), nm, std::move(at_vertex));
 }
 
 }  // namespace iride::radiosity

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Radiosity of a scene: patches, what they reflect and emit at evenly spaced wavelengths, form factors, solution, and
-// the integrator that shows it. Radiance of a patch is b / pi in every direction.
-//   What is not diffuse is taken for a diffuse surface of the same albedo under even light; light from lamps without
-//   extent and from the environment enters as what it makes a patch reflect once.
+// Radiosity of a scene: patches, what they reflect and emit at evenly spaced wavelengths, form factors or lines in
+// their place, solution; and the integrator that shows it.
 #pragma once
 
+#include <memory>
+
 #include "integrators/integrator.h"
+#include "integrators/radiosity/field.h"
 #include "integrators/radiosity/form_factor_methods.h"
 #include "integrators/radiosity/solvers.h"
+#include "integrators/radiosity/stochastic.h"
 
 namespace iride::radiosity {
 
@@ -18,42 +20,60 @@ struct Settings {
     std::string form_factors = "rays", solver = "conjugate-gradients";
     int fineness = 0;  // of the form factors; 0: the method's own
     Stop stop = {};
+    bool on_demand = false;        // rows of form factors are made when a patch shoots, and forgotten
+    double link_tolerance = 3e-7;  // hierarchical: of the emitted power
+    int lines = 1000;              // stochastic solvers: per patch
+    std::uint64_t seed = 0;        // of theirs
+    int substructuring = 0;        // times that receivers are split where radiosity varies
+    double contrast = 0.1;         // by this share of the mean over a patch
+    double memory_bytes = 4e9;     // refused before it is taken
 };
 
 struct Report {
-    double reciprocity_defect, closure_defect;  // of the form factors as computed
-    int iterations;
-    double residual;
+    double reciprocity_defect = 0, closure_defect = 0;  // of the form factors as computed
+    int iterations = 0;
+    double residual = 0;
+    std::uint64_t links = 0, lines = 0;
     std::vector<std::string> remarks;  // what was ignored or approximated
 };
 
 class SceneRadiosity {
   public:
-    // Throws InputError: too many patches, unknown names, a reflectance of 1 or above.
+    // Throws InputError: too much memory, unknown names, no solution.
     SceneRadiosity(Scene const& scene, WavelengthRange const& range, Settings const& settings);
 
+    // The patches that exchange light; those of field() may be finer.
     PatchMesh const& mesh() const { return mesh_; }
     System const& system() const { return system_; }
-    Spectra const& radiosity() const { return radiosity_; }  // [patch][wavelength]
-    std::vector<double> const& wavelengths_nm() const { return nm_; }
+    Spectra const& radiosity() const { return radiosity_; }            // [patch][wavelength]
+    Spectra const& standard_error() const { return standard_error_; }  // likewise, of stochastic solvers; else empty
+    std::vector<double> const& wavelengths_nm() const { return field_->wavelengths_nm(); }
     Report const& report() const { return report_; }
-    PatchTracer const& tracer() const { return tracer_; }
-
-    // Radiance that leaves a place of a patch, between its vertices and between wavelengths.
-    Radiance radiance(PatchHit const& hit, Wavelengths const& wavelengths) const;
+    std::shared_ptr<RadiosityField const> field() const { return field_; }
+    PatchTracer const& tracer() const { return field_->tracer(); }
+    Radiance radiance(PatchHit const& hit, Wavelengths const& wavelengths) const {
+        return field_->radiance(hit, wavelengths);
+    }
 
   private:
-    void read_spectra(Scene const& scene);
-    void transfer_to_vertices();
+    void solve_stored(Scene const& scene, std::vector<double> const& nm, FormFactorMethod const& method,
+                      SolverEntry const& solver, Settings const& settings);
+    void say_what_leaks(Scene const& scene);
+    void solve_on_demand(FormFactorMethod const& method, Settings const& settings);
+    void solve_by_lines(Settings const& settings, StochasticEntry const& entry);
+    void substructure(Scene const& scene, std::vector<double> const& nm, FormFactorMethod const& method,
+                      Settings const& settings);
 
     PatchMesh mesh_;
-    PatchTracer tracer_;
-    std::vector<double> nm_;
+    std::unique_ptr<PatchTracer> tracer_;
     System system_;
-    Spectra radiosity_;
-    Eigen::Array<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> at_vertex_;  // [vertex][wavelength]
+    Spectra radiosity_, standard_error_;
+    std::shared_ptr<RadiosityField const> field_;
     Report report_;
 };
+
+// Looks at a solution.
+std::unique_ptr<Integrator> show(std::shared_ptr<RadiosityField const> field);
 
 std::unique_ptr<Integrator> make_radiosity(Scene const& scene, RenderPlan const& plan);
 

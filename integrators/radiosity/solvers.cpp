@@ -11,15 +11,18 @@ namespace {
 
 using Row = Eigen::Array<double, 1, Eigen::Dynamic>;  // [wavelength]
 
-Eigen::ArrayXd own_factors(System const& s) { return s.form_factors.diagonal().array(); }
+// Hierarchical patches are flat: they do not see themselves.
+Eigen::ArrayXd own_factors(System const& s) {
+    return s.transport ? Eigen::ArrayXd::Zero(s.patches()) : Eigen::ArrayXd(s.form_factors.diagonal().array());
+}
 
 class Jacobi final : public Solver {
   public:
     explicit Jacobi(System const& s) : s_(s), own_(own_factors(s)), b_(Spectra::Zero(s.patches(), s.wavelengths())) {}
     void step() override {
-        Spectra const gathered = (s_.form_factors * b_.matrix()).array();
+        Spectra const all = gathered(s_, b_);
         for (Eigen::Index i = 0; i < s_.patches(); ++i) {
-            Row const rho = s_.reflectance.row(i), others = gathered.row(i) - own_[i] * b_.row(i);
+            Row const rho = s_.reflectance.row(i), others = all.row(i) - own_[i] * b_.row(i);
             b_.row(i) = (s_.emission.row(i) + rho * others) / (1 - rho * own_[i]);
         }
     }
@@ -105,14 +108,13 @@ class ConjugateGradients final : public Solver {
   public:
     explicit ConjugateGradients(System const& s)
         : s_(s), scale_((s.reflectance.colwise() / s.area).sqrt()), z_(Spectra::Zero(s.patches(), s.wavelengths())) {
-        Spectra const gathered = (s.form_factors * s.emission.matrix()).array();
-        residual_ = (s.reflectance.colwise() * s.area).sqrt() * gathered;
+        residual_ = (s.reflectance.colwise() * s.area).sqrt() * gathered(s, s.emission);
         direction_ = residual_;
         norm2_ = residual_.square().colwise().sum();
     }
     void step() override {
-        Spectra const gathered = (s_.form_factors * (scale_ * direction_).matrix()).array();
-        Spectra const image = direction_ - (s_.reflectance.colwise() * s_.area).sqrt() * gathered;
+        Spectra const image =
+            direction_ - (s_.reflectance.colwise() * s_.area).sqrt() * gathered(s_, scale_ * direction_);
         Row const length = quotient(norm2_, (direction_ * image).colwise().sum());
         z_ += direction_.rowwise() * length;
         residual_ -= image.rowwise() * length;
@@ -155,13 +157,14 @@ std::unique_ptr<Solver> make(System const& s) {
 }
 
 constexpr std::array<SolverEntry, 7> table{{
-    {"conjugate-gradients", "the fastest, where form factors are reciprocal", make<ConjugateGradients>},
-    {"gauss-seidel", "sweeps with the latest values", [](System const& s) { return over_relaxation(s, 1); }},
-    {"over-relaxation", "gauss-seidel's step times 1.15", [](System const& s) { return over_relaxation(s, 1.15); }},
-    {"jacobi", "sweeps with the last sweep's values: a bounce of light each", make<Jacobi>},
-    {"southwell", "the patch with the most unshot power first", make<Southwell>},
-    {"shooting", "progressive refinement: southwell with the unshot and an ambient share shown", make<Shooting>},
-    {"direct", "LU factors, for small scenes", make<Direct>},
+    {"conjugate-gradients", "the fastest, where form factors are reciprocal", false, make<ConjugateGradients>},
+    {"gauss-seidel", "sweeps with the latest values", true, [](System const& s) { return over_relaxation(s, 1); }},
+    {"over-relaxation", "gauss-seidel's step times 1.15", true,
+     [](System const& s) { return over_relaxation(s, 1.15); }},
+    {"jacobi", "sweeps with the last sweep's values: a bounce of light each", false, make<Jacobi>},
+    {"southwell", "the patch with the most unshot power first", true, make<Southwell>},
+    {"shooting", "progressive refinement: southwell with the unshot and an ambient share shown", true, make<Shooting>},
+    {"direct", "LU factors, for small scenes", true, make<Direct>},
 }};
 
 double relative_residual(System const& system, Spectra const& b) {

@@ -7,8 +7,9 @@
 //   southwell            the patch of the largest |sigma| alone: beta_i += sigma_i / K_ii, K_ij = delta_ij - rho_i F_ji
 //   shooting             southwell, whose answer is shot plus unshot plus an ambient share:
 //                        b + sigma / A + rho Phi, Phi = sum sigma / (A_total (1 - mean rho))
-//   conjugate-gradients  on I - S, S = rho^1/2 A^1/2 F A^-1/2 rho^1/2, symmetric by reciprocity; b = e + (rho / A)^1/2
-//   z direct               LU factors of M, a wavelength at a time
+//   conjugate-gradients  on I - S, S = rho^1/2 A^1/2 F A^-1/2 rho^1/2, symmetric by reciprocity;
+//                        b = e + (rho / A)^1/2 z
+//   direct               LU factors of M, a wavelength at a time
 // The book's ambient term lacks the unshot part sigma / A: here it is that of [Cohen 1988]. Southwell and shooting
 // choose by power summed over the wavelengths. [Saad 2003]
 #pragma once
@@ -33,6 +34,7 @@ class Solver {
 struct SolverEntry {
     char const* name;
     char const* summary;
+    bool needs_matrix;                               // wants rows of F: no Transport will do
     std::unique_ptr<Solver> (*make)(System const&);  // keeps a reference
 };
 std::span<SolverEntry const> solvers();

@@ -1,11 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "integrators/radiosity/system.h"
 
+#include <tbb/parallel_for.h>
+
 namespace iride::radiosity {
 
+Spectra gathered(System const& system, Spectra const& b) {
+    if (system.transport) return system.transport->gather(b);
+    Spectra sums(b.rows(), b.cols());
+    tbb::parallel_for(tbb::blocked_range<Eigen::Index>(0, b.rows(), 64), [&](auto const& range) {
+        for (Eigen::Index i = range.begin(); i < range.end(); ++i) {
+            sums.row(i).setZero();
+            for (FormFactors::InnerIterator F(system.form_factors, i); F; ++F)
+                sums.row(i) += F.value() * b.row(F.col());
+        }
+    });
+    return sums;
+}
+
 Spectra residual(System const& system, Spectra const& b) {
-    Spectra const gathered = (system.form_factors * b.matrix()).array();
-    return system.emission - b + system.reflectance * gathered;
+    return system.emission - b + system.reflectance * gathered(system, b);
 }
 
 double reciprocity_defect(System const& system) {
@@ -16,8 +30,7 @@ double reciprocity_defect(System const& system) {
 }
 
 double closure_defect(System const& system) {
-    Eigen::VectorXd const sums = system.form_factors * Eigen::VectorXd::Ones(system.patches());
-    return (1 - sums.array()).abs().maxCoeff();
+    return (1 - gathered(system, Spectra::Ones(system.patches(), 1))).abs().maxCoeff();
 }
 
 }  // namespace iride::radiosity

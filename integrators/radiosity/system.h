@@ -8,21 +8,33 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <memory>
 
 namespace iride::radiosity {
 
 using FormFactors = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 using Spectra = Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;  // [patch][wavelength]
 
+// The product with F where F is not a matrix of its own.
+class Transport {
+  public:
+    virtual ~Transport() = default;
+    virtual Spectra gather(Spectra const& b) const = 0;  // [patch][any number of columns]
+};
+
 struct System {
     Eigen::ArrayXd area;       // [patch], m^2
-    FormFactors form_factors;  // [patch][patch]
+    FormFactors form_factors;  // [patch][patch]; empty where there is a transport
     Spectra reflectance;       // 0 <= rho < 1
     Spectra emission;          // W m^-2 nm^-1
+    std::shared_ptr<Transport const> transport = {};
 
     Eigen::Index patches() const { return area.size(); }
     Eigen::Index wavelengths() const { return emission.cols(); }
 };
+
+// F b, row after row in parallel.
+Spectra gathered(System const& system, Spectra const& b);
 
 // e - M b: what a radiosity still lacks. [W m^-2 nm^-1]
 Spectra residual(System const& system, Spectra const& b);

@@ -40,7 +40,7 @@ constexpr char inside_of_a_sphere[] = R"({"camera":{"eye":[0,0,0],"target":[0,0,
 // 1 + .5419 / N^2.
 TEST_CASE("every method finds the form factors of the cube to its own error", "[law]") {
     auto const scene = test::scene_from(cube(.5, 1));
-    PatchMesh const mesh = make_patches(*scene, 1, 100);
+    PatchMesh const mesh = make_patches(*scene, 1);
     PatchTracer const tracer(mesh);
     REQUIRE(mesh.patch.size() == 6);
     auto const factors = [&](char const* name, int fineness) { return method(name).compute(mesh, tracer, fineness); };
@@ -70,7 +70,7 @@ TEST_CASE("every method finds the form factors of the cube to its own error", "[
 // A_j / (4 pi R^2). Facets make the sphere a little smaller, and hide neighbours from each other: those are left out.
 TEST_CASE("inside a sphere every patch sees every other by its area", "[law]") {
     auto const scene = test::scene_from(inside_of_a_sphere);
-    PatchMesh const mesh = make_patches(*scene, .35, 2000);
+    PatchMesh const mesh = make_patches(*scene, .35);
     PatchTracer const tracer(mesh);
     constexpr int rays = 1 << 12;
     FormFactors const F = method("rays").compute(mesh, tracer, rays);
@@ -124,8 +124,16 @@ TEST_CASE("radiosity refuses what has no solution or would not fit", "[input]") 
         }
         return std::string("accepted");
     };
-    CHECK_THAT(refused(cube(1, 1), {.size_m = .5}), Contains("material 'm'") && Contains("no radiosity"));
-    CHECK_THAT(refused(cube(.5, 1), {.size_m = 1e-4}), Contains("--size") && Contains("allowed: 30000"));
+    CHECK_THAT(refused(cube(1, 1), {.size_m = .5}),
+               Contains("material 'm'") && Contains("patch 0") && Contains("has no radiosity"));
+    CHECK_THAT(refused(cube(.5, 1), {.size_m = 1e-4}),
+               Contains("--size") && Contains("would take") && Contains("allowed: 4 GB"));
     CHECK_THAT(refused(cube(.5, 1), {.size_m = 1, .form_factors = "hemicubes"}), Contains("did you mean 'hemicube'"));
     CHECK_THAT(refused(cube(.5, 1), {.size_m = 1, .solver = "jacoby"}), Contains("did you mean 'jacobi'"));
+    CHECK_THAT(refused(cube(1, 1), {.size_m = 1, .solver = "collision-walk"}), Contains("nothing absorbs"));
+    CHECK_THAT(refused(cube(.5, 1), {.size_m = 1, .form_factors = "hierarchical", .solver = "direct"}),
+               Contains("allowed: conjugate-gradients, jacobi"));
+    CHECK_THAT(refused(cube(.5, 1), {.size_m = 1, .on_demand = true}), Contains("allowed: shooting"));
+    CHECK_THAT(refused(cube(.5, 1), {.size_m = .5, .form_factors = "hierarchical", .memory_bytes = 1e5}),
+               Contains("--memory"));
 }

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "integrators/radiosity/field.h"
+
+#include <Eigen/Geometry>
+
+namespace iride::radiosity {
+
+RadiosityField::RadiosityField(PatchMesh mesh, std::vector<double> wavelengths_nm, AtVertex at_vertex)
+    : mesh_(std::move(mesh)), tracer_(mesh_), nm_(std::move(wavelengths_nm)), at_vertex_(std::move(at_vertex)) {}
+
+// Wachspress coordinates: barycentric in a triangle, bilinear in a rectangle, smooth and linear along edges in between.
+Radiance RadiosityField::radiance(PatchHit const& hit, Wavelengths const& wavelengths) const {
+    Radiance L;
+    if (hit.patch < 0) return L;
+    Patch const& p = mesh_.patch[static_cast<std::size_t>(hit.patch)];
+    auto const n = static_cast<std::size_t>(p.corners);
+    std::array<VectorDouble, 4> v;
+    for (std::size_t k = 0; k < n; ++k) v[k] = mesh_.position[static_cast<std::size_t>(p.vertex[k])];
+    auto const area = [&](VectorDouble const& a, VectorDouble const& b, VectorDouble const& c) {
+        return p.normal.dot((b - a).cross(c - a));
+    };
+    std::array<double, 4> side{}, weight{};
+    for (std::size_t k = 0; k < n; ++k) side[k] = std::max(0.0, area(hit.position, v[k], v[(k + 1) % n]));
+    double total = 0;
+    for (std::size_t k = 0; k < n; ++k) {
+        weight[k] = area(v[(k + n - 1) % n], v[k], v[(k + 1) % n]);
+        for (std::size_t j = 0; j < n; ++j)
+            if (j != k && j != (k + n - 1) % n) weight[k] *= side[j];
+        total += weight[k];
+    }
+    if (!(total > 0)) return L;
+    auto const last = static_cast<float>(nm_.size()) - 2;
+    float const first_nm = static_cast<float>(nm_.front());
+    float const per_nm = nm_.size() < 2 ? 0 : 1 / static_cast<float>(nm_[1] - nm_[0]);
+    for (int lane = 0; lane < lane_count; ++lane) {
+        float const place = (wavelengths.nm[lane] - first_nm) * per_nm;
+        float const cell = std::clamp(std::floor(place), 0.0f, std::max(0.0f, last)), fraction = place - cell;
+        auto const column = static_cast<Eigen::Index>(cell), next = std::min(column + 1, at_vertex_.cols() - 1);
+        float b = 0;
+        for (std::size_t k = 0; k < n; ++k) {
+            auto const row = p.vertex[k];
+            b += static_cast<float>(weight[k] / total) *
+                 (at_vertex_(row, column) + fraction * (at_vertex_(row, next) - at_vertex_(row, column)));
+        }
+        L.lane[lane] = std::max(0.0f, b) * inverse_pi;
+    }
+    return L;
+}
+
+}  // namespace iride::radiosity
