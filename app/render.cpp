@@ -17,6 +17,7 @@
 #include "film/checkpoint.h"
 #include "film/preview.h"
 #include "integrators/adaptive.h"
+#include "integrators/layers.h"
 
 namespace iride {
 
@@ -24,7 +25,7 @@ namespace {
 
 struct Options {
     std::string scene, output, integrator, size, crop, error, colourspace = "ACEScg", view, ocio, preview, report,
-                                                              checkpoint;
+                                                              checkpoint, aov;
     int spp = 0, threads = 0;
     double seconds = 0, checkpoint_seconds = 30;
     std::int64_t seed = -1;
@@ -237,6 +238,7 @@ int run_render(Options const& o) {
     if (!out.preview.empty()) display = ColourConfig(o.ocio).to_display("", o.view);
     RenderPlan const plan = make_plan(*scene);
     std::string const name = o.integrator.empty() ? scene->render.integrator : o.integrator;
+    std::vector<std::string> const layers = parse_layers(o.aov, name, o.adaptive);
     auto const integrator = make_integrator(name, *scene, plan);
     if (!o.quiet)
         for (std::string const& remark : scene->remarks) fmt::print(stderr, "note: {}\n", remark);
@@ -265,7 +267,7 @@ int run_render(Options const& o) {
     saving.save();
 
     Film const film = picture_of(saving.state().films);
-    write_exr(film, of, out.exr);
+    write_exr(film, of, out.exr, make_layers(layers, *scene, plan, name, settings, film, of));
     if (display) write_preview(film, scene->film.white, scene->film.exposure, *display, out.preview);
     if (!out.report.empty()) write_report(out.report, *scene, name, report, film);
     if (!o.quiet) print_summary(report, film, out.exr);
@@ -309,6 +311,9 @@ Command add_render(CLI::App& app) {
                      "number of the first sample: shares of a picture, for iride merge")
         ->check(CLI::Range(0, 1 << 24));
     parser->add_option("--crop", o->crop, "X0,Y0,X1,Y1: only these pixels of the picture");
+    std::string layers;
+    for (LayerEntry const& e : layer_entries()) layers += fmt::format("\n  {}: {}", e.name, e.summary);
+    parser->add_option("--aov", o->aov, "more layers for the EXR, by name, separated by commas:" + layers);
     parser->add_option("--checkpoint", o->checkpoint, "file to save all samples in, and to go on from if it is there");
     parser
         ->add_option("--checkpoint-every", o->checkpoint_seconds,

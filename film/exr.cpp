@@ -148,11 +148,14 @@ Image<std::array<float, 3>> to_image(Film const& film, OutputSpace const& space,
     return image;
 }
 
-void write_exr(Film const& film, ExrSettings const& settings, std::filesystem::path const& path) {
+void write_exr(Film const& film, ExrSettings const& settings, std::filesystem::path const& path,
+               ExtraLayers const& extra) {
     OutputSpace const space = output_space(settings.colourspace, settings.scene_white);
     AtomicFile file(path);
     Imf::Header header = header_of(film, settings, space);
     std::vector<Plane> planes = planes_of(film, settings, space);
+    for (auto const& [name, value] : extra.channels) planes.push_back({name, Imf::FLOAT, value, {}});
+    for (auto const& [name, value] : extra.attributes) header.insert(name, Imf::StringAttribute(value));
     Imf::FrameBuffer buffer;
     auto const width = static_cast<std::size_t>(film.width());
     for (Plane& p : planes) {
