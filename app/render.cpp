@@ -275,10 +275,9 @@ int run_render(Options const& o) {
         fmt::print(stderr, "iride: interrupted; what was finished is saved\n");
         return exit_interrupted;
     }
-    std::uint64_t const rejected = total(film.rejected());
-    if (static_cast<double>(rejected) > trustworthy_rejections * static_cast<double>(report.paths)) {
-        fmt::print(stderr, "iride: {} of {} samples were rejected: do not trust this picture\n", rejected,
-                   report.paths);
+    std::uint64_t const rejected = total(film.rejected()), taken = film.total_samples() + rejected;
+    if (static_cast<double>(rejected) > trustworthy_rejections * static_cast<double>(taken)) {
+        fmt::print(stderr, "iride: {} of {} samples were rejected: do not trust this picture\n", rejected, taken);
         return exit_not_trustworthy;
     }
     return exit_done;

@@ -12,9 +12,9 @@ namespace iride {
 
 namespace {
 
-constexpr std::uint32_t first_floor = 8;  // samples of each half: enough for a first guess over 25 pixels
-constexpr double most_per_floor = 16;     // a guess is trusted up to this many times the floor
-constexpr double usual_per_floor = 3;     // with no target: samples per pixel and round over those of the floor
+constexpr std::uint32_t first_floor = 16;  // samples of each half: one in each 1/4 x 1/4 of a pixel
+constexpr double most_per_floor = 16;      // a guess is trusted up to this many times the floor
+constexpr double usual_per_floor = 3;      // with no target: samples per pixel and round over those of the floor
 constexpr double one_in_hundred = 2.5758293035489004;  // |z| of a normal deviate beyond which 1 % lies
 
 std::uint32_t floor_of(int round) { return first_floor << round; }
@@ -91,8 +91,8 @@ class Rounds {
         s.goals = each;
         s.seconds.reset();
         s.stop_at.reset();
-        if (s.on_progress)
-            s.on_progress = [this](int, double) { settings_.on_progress(static_cast<int>(mean_spp()), share()); };
+        int const before = static_cast<int>(mean_spp());
+        if (s.on_progress) s.on_progress = [this, before](int, double) { settings_.on_progress(before, share()); };
         RenderReport const done = render(scene_, plan_, integrator_, s, films_[stream]);
         report_.paths += done.paths;
         report_.rays.add(done.rays);
