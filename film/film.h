@@ -71,8 +71,8 @@ class Film {
     void reject(int x, int y, Rejection cause);
     // Add the sums of another film of the same picture, wherever in it that film lies inside this one.
     void add(Film const& other);
-    // The mean of two films of the same samples' number or not, each with weight 1/2: of independent estimates whose
-    // counts may depend on values of the other. Counts add up, the variance is that of the mean of both.
+    // The mean of two films with weight 1/2 each, whatever their numbers of samples, which add up: for halves whose
+    // numbers of samples depend on each other's values. The variance is that of this mean of independent films.
     static Film half_and_half(Film const& a, Film const& b);
 
     int width() const { return pixels_.width; }
