@@ -19,6 +19,7 @@ struct Command {
 };
 
 Command add_render(CLI::App& app);
+Command add_merge(CLI::App& app);
 Command add_scenes(CLI::App& app);
 Command add_plan(CLI::App& app);
 Command add_radiosity(CLI::App& app);

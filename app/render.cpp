@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <csignal>
@@ -13,22 +14,25 @@
 
 #include "app/command.h"
 #include "base/atomic_file.h"
-#include "film/exr.h"
+#include "film/checkpoint.h"
 #include "film/preview.h"
+#include "integrators/adaptive.h"
+#include "integrators/layers.h"
 #include "integrators/radiosity/radiosity.h"
 #include "integrators/radiosity/solution_file.h"
-#include "integrators/render.h"
 
 namespace iride {
 
 namespace {
 
 struct Options {
-    std::string scene, output, integrator, size, colourspace = "ACEScg", view, ocio, preview, report, solution;
+    std::string scene, output, integrator, size, crop, error, colourspace = "ACEScg", view, ocio, preview, report,
+                                                              checkpoint, aov, solution;
     int spp = 0, threads = 0;
-    double seconds = 0, error = 0;
+    double seconds = 0, checkpoint_seconds = 30;
     std::int64_t seed = -1;
-    bool quiet = false;
+    std::uint32_t first_sample = 0;
+    bool adaptive = false, quiet = false;
 };
 
 // Above this share of dropped samples the picture is not to be trusted (exit code 3).
@@ -50,6 +54,20 @@ void apply_size(Scene& scene, std::string const& size) {
         fail("--size", fmt::format("found '{}', allowed: WIDTHxHEIGHT, each 1 .. 65536, e.g. 640x360", size));
     scene.film.width = width;
     scene.film.height = height;
+}
+
+std::optional<Crop> crop_of(Scene const& scene, std::string const& crop) {
+    if (crop.empty()) return std::nullopt;
+    Crop c{};
+    int used = 0;
+    if (std::sscanf(crop.c_str(), "%d,%d,%d,%d%n", &c.x0, &c.y0, &c.x1, &c.y1, &used) != 4 ||
+        used != static_cast<int>(crop.size()) || c.x0 < 0 || c.y0 < 0 || c.x0 >= c.x1 || c.y0 >= c.y1 ||
+        c.x1 > scene.film.width || c.y1 > scene.film.height)
+        fail("--crop",
+             fmt::format("found '{}', allowed: X0,Y0,X1,Y1 with 0 <= X0 < X1 <= {} and 0 <= Y0 < Y1 <= {}; the "
+                         "pixels X0 <= x < X1, Y0 <= y < Y1 are rendered",
+                         crop, scene.film.width, scene.film.height));
+    return c;
 }
 
 // One line on a terminal that is written over: percentage, time left.
@@ -90,22 +108,79 @@ Outputs outputs_of(Options const& o, Scene const& scene) {
         fail("--output", fmt::format("found '{}', but a name ending in .exr is wanted", out.exr.string()));
     if (!out.preview.empty() && out.preview.extension() != ".png")
         fail("--preview", fmt::format("found '{}', but a name ending in .png is wanted", out.preview.string()));
-    for (std::filesystem::path const& p : {out.exr, out.preview, out.report})
+    for (std::filesystem::path const& p : {out.exr, out.preview, out.report, std::filesystem::path(o.checkpoint)})
         if (!p.empty()) check_writable(p);
     return out;
 }
 
+// What there is of the picture, saved every so often; what a file of that name holds is gone on with.
+class Saving {
+  public:
+    Saving(Options const& o, ExrSettings const& settings, AdaptiveState start)
+        : path_(o.checkpoint), every_(o.checkpoint_seconds), state_{settings, std::move(start.films), start.round} {
+        std::error_code ignored;
+        if (path_.empty() || !std::filesystem::exists(path_, ignored)) return;
+        Checkpoint found = read_checkpoint(path_);
+        std::vector<Diagnostic> wrong;
+        for (std::string const& difference : differences(found, state_))
+            wrong.push_back({{path_.string()}, "--checkpoint", "is of another render: its " + difference});
+        if (!wrong.empty()) throw InputError(std::move(wrong));
+        state_.films = std::move(found.films);
+        state_.round = found.round;
+    }
+    Checkpoint& state() { return state_; }
+    void on_pass() {
+        if (path_.empty() || Clock::now() - last_ < std::chrono::duration<double>(every_)) return;
+        save();
+    }
+    // What cannot be saved is said once, and the render goes on: the file of before is still there.
+    void save() {
+        if (path_.empty()) return;
+        try {
+            write_checkpoint(state_, path_);
+            failed_ = false;
+        } catch (InputError const& e) {
+            if (!failed_) fmt::print(stderr, "iride: {}; the checkpoint of before stays\n", e.what());
+            failed_ = true;
+        }
+        last_ = Clock::now();
+    }
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    std::filesystem::path path_;
+    double every_;  // seconds
+    Checkpoint state_;
+    Clock::time_point last_ = Clock::now();
+    bool failed_ = false;
+};
+
 RenderSettings settings_of(Options const& o, Scene const& scene) {
     RenderSettings s;
     constexpr int open_ended = 1 << 24;
-    s.spp = o.spp > 0 ? o.spp : (o.seconds > 0 || o.error > 0) ? open_ended : scene.render.spp;
+    s.spp = o.spp > 0 ? o.spp : (o.seconds > 0 || !o.error.empty()) ? open_ended : scene.render.spp;
     if (o.seconds > 0) s.seconds = o.seconds;
-    if (o.error > 0) s.relative_error = o.error;
+    if (!o.error.empty()) {
+        s.stop_at = ErrorTarget::parse(o.error);
+        s.stop_at->set_display(scene.film.white, scene.film.exposure);
+    }
+    s.first_sample = o.first_sample;
+    if (!o.checkpoint.empty()) s.pass_seconds = o.checkpoint_seconds;
     s.seed = o.seed >= 0 ? static_cast<std::uint64_t>(o.seed) : scene.render.seed;
     s.sampler = scene.render.sampler;
     s.threads = o.threads;
     s.interrupted = &interrupted;
     return s;
+}
+
+struct SampleSpread {
+    std::uint32_t min, max;
+    double mean;
+};
+SampleSpread sample_spread(Film const& film) {
+    auto const [least, most] = std::ranges::minmax_element(film.pixels(), {}, &FilmPixel::count);
+    return {least->count, most->count,
+            static_cast<double>(film.total_samples()) / static_cast<double>(film.pixels().size())};
 }
 
 std::uint64_t total(std::array<std::uint64_t, rejection_count> const& rejected) {
@@ -116,6 +191,7 @@ std::uint64_t total(std::array<std::uint64_t, rejection_count> const& rejected) 
 
 void write_report(std::filesystem::path const& path, Scene const& scene, std::string const& integrator,
                   RenderReport const& r, Film const& film) {
+    SampleSpread const spread = sample_spread(film);
     nlohmann::ordered_json rejected;
     for (std::size_t i = 0; i < rejection_names.size(); ++i) rejected[rejection_names[i]] = film.rejected()[i];
     std::uint64_t const rays = r.rays.closest_rays + r.rays.shadow_rays;
@@ -123,6 +199,9 @@ void write_report(std::filesystem::path const& path, Scene const& scene, std::st
                                      {"integrator", integrator},
                                      {"spp", r.spp},
                                      {"seconds", r.seconds},
+                                     {"spp_min", spread.min},
+                                     {"spp_mean", spread.mean},
+                                     {"spp_max", spread.max},
                                      {"samples_per_second", static_cast<double>(r.paths) / r.seconds},
                                      {"rays_per_second", static_cast<double>(rays) / r.seconds},
                                      {"embree_share", r.embree_share},
@@ -134,6 +213,9 @@ void write_report(std::filesystem::path const& path, Scene const& scene, std::st
 
 void print_summary(RenderReport const& r, Film const& film, std::filesystem::path const& exr) {
     std::uint64_t const rays = r.rays.closest_rays + r.rays.shadow_rays;
+    SampleSpread const spread = sample_spread(film);
+    if (spread.min != spread.max)
+        fmt::print(stderr, "samples per pixel {} .. {}, {:.1f} in the mean\n", spread.min, spread.max, spread.mean);
     fmt::print(stderr, "{} spp in {:.2f} s: {:.3g} camera paths/s, {:.3g} rays/s, {:.0f} % of the time in Embree\n",
                r.spp, r.seconds, static_cast<double>(r.paths) / r.seconds, static_cast<double>(rays) / r.seconds,
                100 * r.embree_share);
@@ -141,9 +223,17 @@ void print_summary(RenderReport const& r, Film const& film, std::filesystem::pat
                total(film.rejected()), exr.string());
 }
 
+RenderReport sampled(Scene const& scene, RenderPlan const& plan, Integrator const& integrator,
+                     RenderSettings const& settings, Checkpoint& state) {
+    if (state.films.size() == 1) return render(scene, plan, integrator, settings, state.films.front());
+    return render_adaptively(scene, plan, integrator, settings, settings.stop_at, state.films, state.round);
+}
+
 int run_render(Options const& o) {
+    if (o.adaptive && o.error.empty() && o.seconds == 0) fail("--adaptive", "needs --error or --time to say how far");
     auto const scene = load_scene(find_scene(o.scene));
     apply_size(*scene, o.size);
+    std::optional<Crop> const crop = crop_of(*scene, o.crop);
     Outputs const out = outputs_of(o, *scene);
     output_space(o.colourspace, scene->film.white);  // to refuse an unknown one before any work
     std::optional<ColourTransform> display;
@@ -154,24 +244,35 @@ int run_render(Options const& o) {
         fail("--solution", fmt::format("found integrator '{}', allowed: radiosity", name));
     auto const integrator = o.solution.empty() ? make_integrator(name, *scene, plan)
                                                : radiosity::show(radiosity::load_solution(o.solution, *scene));
+    std::vector<std::string> const layers = parse_layers(o.aov, name, o.adaptive);
     if (!o.quiet)
         for (std::string const& remark : scene->remarks) fmt::print(stderr, "note: {}\n", remark);
 
-    Film film = make_film(*scene);
     RenderSettings settings = settings_of(o, *scene);
+    ExrSettings const of{o.colourspace,
+                         scene->film.white,
+                         scene->film.exposure,
+                         scene->film.half,
+                         scene->name,
+                         scene->hash,
+                         name,
+                         settings.seed,
+                         scene->render.sampler == SamplerKind::sobol ? "sobol" : "independent",
+                         o.first_sample};
+    Saving saving(o, of, o.adaptive ? make_adaptive_state(*scene, crop) : AdaptiveState{{make_film(*scene, crop)}, 0});
     std::signal(SIGINT, on_interrupt);
     std::signal(SIGTERM, on_interrupt);
     RenderReport report;
     {
         Progress progress(!o.quiet, settings.spp);
         settings.on_progress = [&](int spp, double share) { progress(spp, share); };
-        report = render(*scene, plan, *integrator, settings, film);
+        settings.on_pass = [&] { saving.on_pass(); };
+        report = sampled(*scene, plan, *integrator, settings, saving.state());
     }
+    saving.save();
 
-    write_exr(film,
-              {o.colourspace, scene->film.white, scene->film.exposure, scene->film.half, scene->name, scene->hash, name,
-               settings.seed},
-              out.exr);
+    Film const film = picture_of(saving.state().films);
+    write_exr(film, of, out.exr, make_layers(layers, *scene, plan, name, settings, film, of));
     if (display) write_preview(film, scene->film.white, scene->film.exposure, *display, out.preview);
     if (!out.report.empty()) write_report(out.report, *scene, name, report, film);
     if (!o.quiet) print_summary(report, film, out.exr);
@@ -179,10 +280,9 @@ int run_render(Options const& o) {
         fmt::print(stderr, "iride: interrupted; what was finished is saved\n");
         return exit_interrupted;
     }
-    std::uint64_t const rejected = total(film.rejected());
-    if (static_cast<double>(rejected) > trustworthy_rejections * static_cast<double>(report.paths)) {
-        fmt::print(stderr, "iride: {} of {} samples were rejected: do not trust this picture\n", rejected,
-                   report.paths);
+    std::uint64_t const rejected = total(film.rejected()), taken = film.total_samples() + rejected;
+    if (static_cast<double>(rejected) > trustworthy_rejections * static_cast<double>(taken)) {
+        fmt::print(stderr, "iride: {} of {} samples were rejected: do not trust this picture\n", rejected, taken);
         return exit_not_trustworthy;
     }
     return exit_done;
@@ -202,12 +302,28 @@ Command add_render(CLI::App& app) {
     auto* const seconds =
         parser->add_option("--time", o->seconds, "stop after the pass that ends beyond this many seconds")
             ->check(CLI::PositiveNumber);
-    auto* const error =
-        parser->add_option("--error", o->error, "stop at this relative error (root mean square over pixels)")
-            ->check(CLI::PositiveNumber);
+    auto* const error = parser->add_option("--error", o->error,
+                                           "stop at this relative error (root mean square over pixels), or, as de=0.5, "
+                                           "at this CIEDE2000 error in 99 % of them");
+    parser->add_flag("--adaptive", o->adaptive,
+                     "with --error or --time: more samples where there is more noise, unbiased");
     spp->excludes(seconds)->excludes(error);
     seconds->excludes(error);
     parser->add_option("--seed", o->seed, "seed of the random numbers")->check(CLI::NonNegativeNumber);
+    parser
+        ->add_option("--first-sample", o->first_sample,
+                     "number of the first sample: shares of a picture, for iride merge")
+        ->check(CLI::Range(0, 1 << 24));
+    parser->add_option("--crop", o->crop, "X0,Y0,X1,Y1: only these pixels of the picture");
+    std::string layers;
+    for (LayerEntry const& e : layer_entries()) layers += fmt::format("\n  {}: {}", e.name, e.summary);
+    parser->add_option("--aov", o->aov, "more layers for the EXR, by name, separated by commas:" + layers);
+    parser->add_option("--checkpoint", o->checkpoint, "file to save all samples in, and to go on from if it is there");
+    parser
+        ->add_option("--checkpoint-every", o->checkpoint_seconds,
+                     "seconds between two of them, or a pass if that is longer")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
     parser->add_option("--threads", o->threads, "threads (default: all)")->check(CLI::Range(1, 1024));
     parser->add_option("--size", o->size, "WIDTHxHEIGHT in pixels, instead of the scene's");
     parser

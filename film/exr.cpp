@@ -99,7 +99,10 @@ std::vector<Plane> planes_of(Film const& film, ExrSettings const& s, OutputSpace
 }
 
 Imf::Header header_of(Film const& film, ExrSettings const& s, OutputSpace const& space) {
-    Imf::Header header(film.width(), film.height());
+    FilmPlace const& place = film.place();
+    Imath::Box2i const display({0, 0}, {place.picture_width - 1, place.picture_height - 1});
+    Imath::V2i const corner(place.x0, place.y0);
+    Imf::Header header(display, {corner, corner + Imath::V2i(film.width() - 1, film.height() - 1)});
     header.compression() = Imf::ZIP_COMPRESSION;
     if (space.rgb) Imf::addChromaticities(header, typed(*space.rgb));
     Imf::addWhiteLuminance(header, static_cast<float>(luminance_of_unit_Y(film.observer()) / s.exposure));
@@ -121,6 +124,8 @@ Imf::Header header_of(Film const& film, ExrSettings const& s, OutputSpace const&
     text("iride:scene", s.scene);
     text("iride:sceneHash", s.scene_hash);
     text("iride:integrator", s.integrator);
+    text("iride:sampler", s.sampler);
+    header.insert("iride:firstSample", Imf::IntAttribute(static_cast<int>(s.first_sample)));
     text("iride:seed", std::to_string(s.seed));  // 64 bits: no integer attribute holds them
     text("iride:observer", film.observer().name);
     header.insert("iride:exposure", Imf::DoubleAttribute(s.exposure));
@@ -143,21 +148,23 @@ Image<std::array<float, 3>> to_image(Film const& film, OutputSpace const& space,
     return image;
 }
 
-void write_exr(Film const& film, ExrSettings const& settings, std::filesystem::path const& path) {
+void write_exr(Film const& film, ExrSettings const& settings, std::filesystem::path const& path,
+               ExtraLayers const& extra) {
     OutputSpace const space = output_space(settings.colourspace, settings.scene_white);
     AtomicFile file(path);
     Imf::Header header = header_of(film, settings, space);
     std::vector<Plane> planes = planes_of(film, settings, space);
+    for (auto const& [name, value] : extra.channels) planes.push_back({name, Imf::FLOAT, value, {}});
+    for (auto const& [name, value] : extra.attributes) header.insert(name, Imf::StringAttribute(value));
     Imf::FrameBuffer buffer;
     auto const width = static_cast<std::size_t>(film.width());
     for (Plane& p : planes) {
         header.channels().insert(p.name, Imf::Channel(p.type));
         bool const is_half = p.type == Imf::HALF;
         if (is_half) std::ranges::transform(p.value, std::back_inserter(p.value_half), to_half);
-        char* const base =
-            is_half ? reinterpret_cast<char*>(p.value_half.data()) : reinterpret_cast<char*>(p.value.data());
+        void const* const pixels = is_half ? static_cast<void const*>(p.value_half.data()) : p.value.data();
         std::size_t const size = is_half ? sizeof(half) : sizeof(float);
-        buffer.insert(p.name, Imf::Slice(p.type, base, size, size * width));
+        buffer.insert(p.name, Imf::Slice::Make(p.type, pixels, header.dataWindow(), size, size * width));
     }
     std::ofstream stream(file.temporary(), std::ios::binary);
     try {

@@ -2,10 +2,12 @@
 // OpenEXR files out and in. Written whole or not at all.
 //
 // Channels: R G B (or X Y Z) in the output space; S0.550,000000nm ... for bands, the layout of [Fichet 2021];
-// variance.X variance.Y variance.Z: variance of the mean, of XYZ at exposure 1, always float.
+// variance.X variance.Y variance.Z: variance of the mean, of XYZ at exposure 1, always float; more layers on request
+// (integrators/layers.h).
 // Attributes: chromaticities (typed), whiteLuminance [cd m^-2 of RGB (1,1,1), or of Y = 1], colorInteropID, sceneWhite
 // (x, y that was adapted to the file's white), spectralLayoutVersion and emissiveUnits when there are bands, and under
-// "iride:" version, sceneHash, scene, integrator, spp, seed, observer, exposure and rejected.* counts.
+// "iride:" version, sceneHash, scene, integrator, sampler, spp, seed, firstSample, observer, exposure and rejected.*
+// counts. A film that is a part of a picture is the data window in the picture's display window.
 #pragma once
 
 #include <filesystem>
@@ -26,12 +28,21 @@ struct ExrSettings {
     bool half = false;
     std::string scene, scene_hash, integrator;
     std::uint64_t seed = 0;
+    std::string sampler = "sobol";
+    std::uint32_t first_sample = 0;  // of every pixel
 };
 
 // The film's XYZ through the output space, times the exposure.
 Image<std::array<float, 3>> to_image(Film const& film, OutputSpace const& space, double exposure);
 
-void write_exr(Film const& film, ExrSettings const& settings, std::filesystem::path const& path);
+// More channels beside the picture's, always float, and text attributes.
+struct ExtraLayers {
+    std::vector<std::pair<std::string, std::vector<float>>> channels;  // name, [height][width]
+    std::vector<std::pair<std::string, std::string>> attributes;
+};
+
+void write_exr(Film const& film, ExrSettings const& settings, std::filesystem::path const& path,
+               ExtraLayers const& extra = {});
 
 // A picture read back as XYZ: from its X Y Z channels, or R G B by its own chromaticities (linear Rec.709 if it names
 // none) and, if it has a sceneWhite, with the adaptation undone. `variance` is empty unless the file has it (and then

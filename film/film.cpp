@@ -15,9 +15,32 @@ bool is_step(SpectralFunction const& f) {
 
 }  // namespace
 
+FilmPixel FilmPixel::of(Xyz const& mean, MatrixDouble const& covariance, std::uint32_t count) {
+    double const n = count;
+    FilmPixel p;
+    p.count = count;
+    if (count == 0) return p;
+    VectorDouble const m = to_vector(mean);
+    for (Eigen::Index c = 0; c < 3; ++c) {
+        Eigen::Index const next = (c + 1) % 3;
+        auto const i = static_cast<std::size_t>(c);
+        double const spread = count > 1 ? covariance(c, c) * (n - 1) : 0;
+        double const together = count > 1 ? covariance(c, next) * (n - 1) : 0;
+        p.sum[i] = m[c] * n;
+        p.sum_of_squares[i] = n * (m[c] * m[c] + spread);
+        p.sum_of_products[i] = n * (m[c] * m[next] + together);
+    }
+    return p;
+}
+
 Film::Film(int width, int height, Observer const& observer, WavelengthGrid const& grid, std::optional<Bands> bands)
+    : Film(width, height, {0, 0, width, height}, observer, grid, bands) {}
+
+Film::Film(int width, int height, FilmPlace const& place, Observer const& observer, WavelengthGrid const& grid,
+           std::optional<Bands> bands)
     : pixels_(width, height),
-      observer_(observer),
+      place_(place),
+      observer_(&observer),
       bands_(bands),
       exact_observer_(is_step(observer.xbar) || is_step(observer.ybar) || is_step(observer.zbar)) {
     if (bands_) band_sum_.assign(pixels_.pixel.size() * static_cast<std::size_t>(bands_->count), 0.0);
@@ -25,14 +48,14 @@ Film::Film(int width, int height, Observer const& observer, WavelengthGrid const
 }
 
 Film::Response Film::response(double nm) const {
-    Xyz const c = observer_.at(nm);
-    double const scale = 1 / observer_.ybar_integral;
+    Xyz const c = observer_->at(nm);
+    double const scale = 1 / observer_->ybar_integral;
     return Response{static_cast<float>(c.X * scale), static_cast<float>(c.Y * scale), static_cast<float>(c.Z * scale),
                     0};
 }
 
 void Film::add(int x, int y, Wavelengths const& wavelengths, Radiance const& radiance) {
-    Pixel& pixel = pixels_.at(x, y);
+    FilmPixel& pixel = pixels_.at(x, y);
     auto const power = radiance / wavelengths.density;  // L_i / p_i
     Response total{};
     for (int i = 0; i < lane_count; ++i) {
@@ -43,10 +66,12 @@ void Film::add(int x, int y, Wavelengths const& wavelengths, Radiance const& rad
             total += (cell[0] + wavelengths.fraction[i] * (cell[1] - cell[0])) * power[i];
         }
     }
+    std::array<double, 3> value;
+    for (std::size_t c = 0; c < 3; ++c) value[c] = static_cast<double>(total[c]) / lane_count;
     for (std::size_t c = 0; c < 3; ++c) {
-        double const value = static_cast<double>(total[c]) / lane_count;
-        pixel.sum[c] += value;
-        pixel.sum_of_squares[c] += value * value;
+        pixel.sum[c] += value[c];
+        pixel.sum_of_squares[c] += value[c] * value[c];
+        pixel.sum_of_products[c] += value[c] * value[(c + 1) % 3];
     }
     ++pixel.count;
     if (bands_) add_to_bands(x, y, wavelengths, power);
@@ -66,19 +91,64 @@ void Film::add_to_bands(int x, int y, Wavelengths const& wavelengths,
 
 void Film::reject(int x, int y, Rejection cause) { ++pixels_.at(x, y).rejected[static_cast<std::size_t>(cause)]; }
 
+void Film::add(Film const& other) {
+    for (int y = 0; y < other.height(); ++y)
+        for (int x = 0; x < other.width(); ++x) {
+            int const here_x = x + other.place_.x0 - place_.x0, here_y = y + other.place_.y0 - place_.y0;
+            if (here_x < 0 || here_y < 0 || here_x >= width() || here_y >= height()) continue;
+            FilmPixel& to = pixels_.at(here_x, here_y);
+            FilmPixel const& from = other.pixels_.at(x, y);
+            for (std::size_t c = 0; c < 3; ++c) {
+                to.sum[c] += from.sum[c];
+                to.sum_of_squares[c] += from.sum_of_squares[c];
+                to.sum_of_products[c] += from.sum_of_products[c];
+            }
+            for (std::size_t c = 0; c < to.rejected.size(); ++c) to.rejected[c] += from.rejected[c];
+            to.count += from.count;
+            if (!bands_) continue;
+            double* const sums = band_sum_.data() + band_offset(here_x, here_y);
+            double const* const more = other.band_sum_.data() + other.band_offset(x, y);
+            for (int b = 0; b < bands_->count; ++b) sums[b] += more[b];
+        }
+}
+
+Film Film::half_and_half(Film const& a, Film const& b) {
+    Film film = a;
+    for (int y = 0; y < a.height(); ++y)
+        for (int x = 0; x < a.width(); ++x) {
+            FilmPixel& pixel = film.pixels_.at(x, y);
+            FilmPixel const &p = a.pixels_.at(x, y), &q = b.pixels_.at(x, y);
+            std::uint32_t const count = p.count + q.count;
+            if (p.count == 0 || q.count == 0) {  // nothing but rejected samples in one of them
+                if (p.count == 0) pixel = q;
+            } else {
+                MatrixDouble const covariance = (a.covariance(x, y) + b.covariance(x, y)) / 4;
+                pixel = FilmPixel::of(0.5 * (a.mean(x, y) + b.mean(x, y)), covariance, count);
+            }
+            for (std::size_t c = 0; c < pixel.rejected.size(); ++c) pixel.rejected[c] = p.rejected[c] + q.rejected[c];
+            if (!film.bands_) continue;
+            double* const sums = film.band_sum_.data() + film.band_offset(x, y);
+            for (int k = 0; k < film.bands_->count; ++k) {
+                double const share = p.count == 0 || q.count == 0 ? 1 : 0.5;
+                sums[k] = share * count * (a.band(x, y, k) + b.band(x, y, k));
+            }
+        }
+    return film;
+}
+
 std::size_t Film::band_offset(int x, int y) const {
     return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width()) + static_cast<std::size_t>(x)) *
            static_cast<std::size_t>(bands_->count);
 }
 
 Xyz Film::mean(int x, int y) const {
-    Pixel const& p = pixels_.at(x, y);
+    FilmPixel const& p = pixels_.at(x, y);
     if (p.count == 0) return {};
     return {p.sum[0] / p.count, p.sum[1] / p.count, p.sum[2] / p.count};
 }
 
 Xyz Film::variance(int x, int y) const {
-    Pixel const& p = pixels_.at(x, y);
+    FilmPixel const& p = pixels_.at(x, y);
     constexpr double unknown = std::numeric_limits<double>::infinity();
     if (p.count < 2) return {unknown, unknown, unknown};
     double const n = p.count;
@@ -89,6 +159,21 @@ Xyz Film::variance(int x, int y) const {
     return {of(0), of(1), of(2)};
 }
 
+MatrixDouble Film::covariance(int x, int y) const {
+    FilmPixel const& p = pixels_.at(x, y);
+    Xyz const v = variance(x, y);
+    MatrixDouble m = MatrixDouble::Zero();
+    m.diagonal() = to_vector(v);
+    if (p.count < 2) return m;
+    double const n = p.count;
+    for (Eigen::Index c = 0; c < 3; ++c) {
+        Eigen::Index const next = (c + 1) % 3;
+        auto const i = static_cast<std::size_t>(c), j = static_cast<std::size_t>(next);
+        m(c, next) = m(next, c) = (p.sum_of_products[i] / n - p.sum[i] / n * (p.sum[j] / n)) / (n - 1);
+    }
+    return m;
+}
+
 double Film::band(int x, int y, int band) const {
     std::uint32_t const count = pixels_.at(x, y).count;
     return count > 0 ? band_sum_[band_offset(x, y) + static_cast<std::size_t>(band)] / count : 0;
@@ -96,8 +181,14 @@ double Film::band(int x, int y, int band) const {
 
 std::array<std::uint64_t, rejection_count> Film::rejected() const {
     std::array<std::uint64_t, rejection_count> total{};
-    for (Pixel const& p : pixels_.pixel)
+    for (FilmPixel const& p : pixels_.pixel)
         for (std::size_t c = 0; c < total.size(); ++c) total[c] += p.rejected[c];
+    return total;
+}
+
+std::uint64_t Film::total_samples() const {
+    std::uint64_t total = 0;
+    for (FilmPixel const& p : pixels_.pixel) total += p.count;
     return total;
 }
 

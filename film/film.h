@@ -10,9 +10,11 @@
 
 #include <array>
 #include <cstdint>
+#include <numeric>
 #include <optional>
 #include <vector>
 
+#include "base/vector.h"
 #include "colour/observer.h"
 #include "film/image.h"
 #include "spectral/sampled.h"
@@ -33,24 +35,67 @@ enum class Rejection { not_finite, negative, path_too_long };
 inline constexpr int rejection_count = 3;
 inline constexpr std::array<char const*, rejection_count> rejection_names{"not_finite", "negative", "path_too_long"};
 
+// What is kept of a pixel: sums over its samples, in the order in which they were taken.
+struct FilmPixel {
+    std::array<double, 3> sum{}, sum_of_squares{};  // X, Y, Z
+    std::array<double, 3> sum_of_products{};        // XY, YZ, ZX
+    std::uint32_t count = 0;                        // of the samples in the sums
+    std::array<std::uint32_t, rejection_count> rejected{};
+
+    // Samples taken, the rejected ones included: the number of the pixel's next one.
+    std::uint32_t taken() const { return std::accumulate(rejected.begin(), rejected.end(), count); }
+    static FilmPixel of(Xyz const& mean, MatrixDouble const& covariance, std::uint32_t count);
+};
+
+// The pixels x0 <= x < x1, y0 <= y < y1 of a picture.
+struct Crop {
+    int x0, y0, x1, y1;
+};
+
+// Where the film's pixels lie in the whole picture.
+struct FilmPlace {
+    int x0 = 0, y0 = 0;
+    int picture_width, picture_height;
+    bool operator==(FilmPlace const&) const = default;
+};
+
 class Film {
   public:
     Film(int width, int height, Observer const& observer, WavelengthGrid const& grid, std::optional<Bands> bands = {});
+    Film(int width, int height, FilmPlace const& place, Observer const& observer, WavelengthGrid const& grid,
+         std::optional<Bands> bands);
 
     // Add one sample to pixel (x, y). Calls for different pixels may run at the same time.
     void add(int x, int y, Wavelengths const& wavelengths, Radiance const& radiance);
     // Count a sample that is dropped; the pixel's mean is over the samples added.
     void reject(int x, int y, Rejection cause);
+    // Add the sums of another film of the same picture, wherever in it that film lies inside this one.
+    void add(Film const& other);
+    // The mean of two films with weight 1/2 each, whatever their numbers of samples, which add up: for halves whose
+    // numbers of samples depend on each other's values. The variance is that of this mean of independent films.
+    static Film half_and_half(Film const& a, Film const& b);
 
     int width() const { return pixels_.width; }
     int height() const { return pixels_.height; }
     std::optional<Bands> const& bands() const { return bands_; }
-    Observer const& observer() const { return observer_; }
+    Observer const& observer() const { return *observer_; }
+
+    FilmPlace const& place() const { return place_; }
 
     std::uint32_t sample_count(int x, int y) const { return pixels_.at(x, y).count; }
+    std::uint64_t total_samples() const;
+    FilmPixel const& pixel(int x, int y) const { return pixels_.at(x, y); }
+    FilmPixel& pixel(int x, int y) { return pixels_.at(x, y); }
+    // All there is, to be kept in a file: pixels row by row, and the bands' sums of each.
+    std::vector<FilmPixel>& pixels() { return pixels_.pixel; }
+    std::vector<FilmPixel> const& pixels() const { return pixels_.pixel; }
+    std::vector<double>& band_sums() { return band_sum_; }  // [height][width][band]
+    std::vector<double> const& band_sums() const { return band_sum_; }
     Xyz mean(int x, int y) const;
     // Variance of mean(x, y), each component; of fewer than 2 samples: infinite.
     Xyz variance(int x, int y) const;
+    // Covariance of X, Y and Z of mean(x, y); its diagonal is variance(x, y).
+    MatrixDouble covariance(int x, int y) const;
     // Spectral radiance of a band [W m^-2 sr^-1 nm^-1].
     double band(int x, int y, int band) const;
 
@@ -59,12 +104,6 @@ class Film {
     double relative_error() const;
 
   private:
-    struct Pixel {
-        std::array<double, 3> sum{}, sum_of_squares{};
-        std::uint32_t count = 0;
-        std::array<std::uint32_t, rejection_count> rejected{};
-    };
-
     using Response = float __attribute__((vector_size(4 * sizeof(float))));  // to X, Y, Z; the 4th is 0
 
     Response response(double nm) const;
@@ -72,10 +111,11 @@ class Film {
                       Sampled<dim::spectral_radiance / dim::per_nanometre> power);
     std::size_t band_offset(int x, int y) const;
 
-    Image<Pixel> pixels_;
+    Image<FilmPixel> pixels_;
+    FilmPlace place_;
     std::vector<double> band_sum_;    // [height][width][band]
     std::vector<Response> response_;  // [grid.count] xbar, ybar, zbar over the integral of ybar
-    Observer const& observer_;
+    Observer const* observer_;
     std::optional<Bands> bands_;
     bool exact_observer_;  // an observer of steps (bands of a sensor) is not linear between whole nanometres
 };

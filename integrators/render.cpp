@@ -7,8 +7,10 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 
 namespace iride {
 
@@ -37,7 +39,7 @@ class Batch {
     void start(int x, int y, std::uint32_t sample) {
         if (count_ == 0) begin_timing();
         origin_[count_] = {x, y};
-        starter_.start(x, y, sample, paths_[count_++]);
+        starter_.start(x + film_.place().x0, y + film_.place().y0, sample, paths_[count_++]);
         if (count_ == batch_size) finish();
     }
     void finish() {
@@ -87,20 +89,24 @@ class Loop {
           integrator_(integrator),
           settings_(settings),
           film_(film),
-          starter_(scene, plan, film.width(), film.height(), settings.sampler, settings.seed),
+          starter_(scene, plan, film.place().picture_width, film.place().picture_height, settings.sampler,
+                   settings.seed),
           columns_((film.width() + tile_size - 1) / tile_size),
           rows_((film.height() + tile_size - 1) / tile_size) {}
 
     int tile_count() const { return columns_ * rows_; }
     bool stopped() const { return settings_.interrupted && settings_.interrupted->load(std::memory_order_relaxed); }
 
-    // Samples [first, last) of every pixel of a tile.
-    void render_tile(int tile, std::uint32_t first, std::uint32_t last) {
+    // What every pixel of a tile lacks of `goal` samples, or of its own goal.
+    void render_tile(int tile, std::uint32_t goal) {
         Batch batch(scene_, integrator_, starter_, film_, statistics_.local());
         int const x0 = tile % columns_ * tile_size, y0 = tile / columns_ * tile_size;
         for (int y = y0; y < std::min(y0 + tile_size, film_.height()); ++y)
             for (int x = x0; x < std::min(x0 + tile_size, film_.width()); ++x)
-                for (std::uint32_t s = first; s < last; ++s) batch.start(x, y, s);
+                for (std::uint32_t s = film_.pixel(x, y).taken(),
+                                   end = settings_.goals ? settings_.goals->at(x, y) : goal;
+                     s < end; ++s)
+                    batch.start(x, y, settings_.first_sample + s);
         batch.finish();
     }
 
@@ -125,25 +131,43 @@ class Loop {
 
 // Passes double, so that a time or an error is met closely and the overhead stays small; without either, and with
 // progress shown, sixteenths of the whole.
-int next_pass(RenderSettings const& s, int done) {
-    bool const open_ended = s.seconds || s.relative_error;
+int next_pass(RenderSettings const& s, int done, std::optional<double> seconds_per_sample) {
+    bool const open_ended = s.seconds || s.stop_at;
     int const wanted = open_ended ? std::max(1, done) : std::max(4, s.spp / 16);
-    return std::min(s.spp - done, wanted);
+    double const in_time = open_ended || !std::isfinite(s.pass_seconds) ? wanted
+                           : seconds_per_sample ? std::max(1.0, s.pass_seconds / *seconds_per_sample)
+                                                : 1;
+    return std::min(s.spp - done, in_time < wanted ? static_cast<int>(in_time) : wanted);
+}
+
+// Samples that every pixel has.
+int samples_of_all(Film const& film) {
+    auto const fewest = std::ranges::min_element(film.pixels(), {}, &FilmPixel::taken);
+    return static_cast<int>(fewest->taken());
+}
+
+bool is_done(RenderSettings const& s, Film const& film) {
+    if (!s.goals) return samples_of_all(film) >= s.spp;
+    for (std::size_t i = 0; i < film.pixels().size(); ++i)
+        if (film.pixels()[i].taken() < s.goals->pixel[i]) return false;
+    return true;
 }
 
 }  // namespace
 
-Film make_film(Scene const& scene) {
+Film make_film(Scene const& scene, std::optional<Crop> const& crop) {
     FilmSettings const& f = scene.film;
     std::optional<Bands> bands;
     if (f.band_count > 0) bands = Bands{f.band_range, f.band_count};
-    return Film(f.width, f.height, cie1931_2deg(), scene.grid, bands);
+    Crop const c = crop.value_or(Crop{0, 0, f.width, f.height});
+    return Film(c.x1 - c.x0, c.y1 - c.y0, {c.x0, c.y0, f.width, f.height}, cie1931_2deg(), scene.grid, bands);
 }
 
 RenderReport render(Scene const& scene, RenderPlan const& plan, Integrator const& integrator,
                     RenderSettings const& settings, Film& film) {
     Loop loop(scene, plan, integrator, settings, film);
     RenderReport report;
+    std::uint64_t const paths_before = film.total_samples();
     Clock::time_point const start = Clock::now();
     // More threads than processors only if they are asked for.
     std::optional<tbb::global_control> more;
@@ -151,33 +175,35 @@ RenderReport render(Scene const& scene, RenderPlan const& plan, Integrator const
         more.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(settings.threads));
     tbb::task_arena arena(settings.threads > 0 ? settings.threads : tbb::task_arena::automatic);
     std::atomic<std::uint64_t> tiles_done{0};
+    int const before = report.spp = samples_of_all(film);
     auto const share = [&] {
         double const in_pass = static_cast<double>(tiles_done) / loop.tile_count();
         if (settings.seconds) return std::min(1.0, seconds_since(start) / *settings.seconds);
-        return std::min(1.0, in_pass / settings.spp);
+        return std::min(1.0, settings.goals ? in_pass : (before + in_pass) / settings.spp);
     };
-    while (report.spp < settings.spp && !loop.stopped()) {
-        int const pass = next_pass(settings, report.spp);
+    while (!is_done(settings, film) && !loop.stopped()) {
+        std::optional<double> per_sample;
+        if (report.spp > before) per_sample = seconds_since(start) / (report.spp - before);
+        int const pass = settings.goals ? 1 : next_pass(settings, report.spp, per_sample);
         arena.execute([&] {
             tbb::parallel_for(0, loop.tile_count(), [&](int i) {
                 if (loop.stopped()) return;
                 int const tile = settings.reversed_tiles ? loop.tile_count() - 1 - i : i;
-                loop.render_tile(tile, static_cast<std::uint32_t>(report.spp),
-                                 static_cast<std::uint32_t>(report.spp + pass));
+                loop.render_tile(tile, static_cast<std::uint32_t>(report.spp + pass));
                 tiles_done += static_cast<std::uint64_t>(pass);
                 if (settings.on_progress) settings.on_progress(report.spp, share());
             });
         });
         if (loop.stopped()) break;
-        report.spp += pass;
+        report.spp = samples_of_all(film);
+        if (settings.on_pass) settings.on_pass();
         if (settings.seconds && seconds_since(start) >= *settings.seconds) break;
-        if (settings.relative_error && report.spp >= 2 && film.relative_error() <= *settings.relative_error) break;
+        if (settings.stop_at && settings.stop_at->is_reached(film)) break;
     }
     ThreadStatistics const totals = loop.totals();
     report.interrupted = loop.stopped();
     report.seconds = seconds_since(start);
-    for (int y = 0; y < film.height(); ++y)
-        for (int x = 0; x < film.width(); ++x) report.paths += film.sample_count(x, y);
+    report.paths = film.total_samples() - paths_before;
     report.rays = totals.rays;
     if (totals.timed_ticks > 0)
         report.embree_share = static_cast<double>(totals.rays.traced_ticks) / static_cast<double>(totals.timed_ticks);

@@ -16,7 +16,7 @@ TEST_CASE("any threads, tile order and passes give the same bits, with dispersio
         scene->film.band_count = 7;
         auto const picture = [&](int threads, bool reversed, bool doubling_passes = false) {
             RenderSettings settings{.spp = 8, .seed = 5, .threads = threads, .reversed_tiles = reversed};
-            if (doubling_passes) settings.relative_error = 1e-9;  // never reached: 1, 1, 2, 4 samples instead of 4, 4
+            if (doubling_passes) settings.stop_at = ErrorTarget::relative(1e-9);  // never reached: 1, 1, 2, 4 samples instead of 4, 4
             Film const film = test::rendered(*scene, "path", settings);
             std::vector<double> values;
             for (int y = 0; y < 50; ++y)

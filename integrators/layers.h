@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a picture can show beside its light: layers by name, found after it and apart from it, so that a render that is
+// not asked for them runs as if they did not exist.
+//   of the first hit of the picture's own camera rays, the first 256 of a pixel: depth, position, normals, albedo,
+//   material, object; of the film: count, variance
+//   direct: the same paths again, ended after one scattering; indirect: the rest. Their sum is the picture.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "film/exr.h"
+#include "integrators/render.h"
+
+namespace iride {
+
+struct LayerEntry {
+    char const* name;
+    char const* summary;
+};
+std::span<LayerEntry const> layer_entries();
+
+// Names separated by commas. Throws InputError: unknown name, or one that the integrator cannot give.
+std::vector<std::string> parse_layers(std::string const& text, std::string const& integrator, bool adaptive);
+
+// What is written beside the film, in the output space and at the exposure of `settings`. Samples of `render` are those
+// that made the film.
+ExtraLayers make_layers(std::vector<std::string> const& names, Scene const& scene, RenderPlan const& plan,
+                        std::string const& integrator, RenderSettings const& render, Film const& film,
+                        ExrSettings const& settings);
+
+}  // namespace iride
