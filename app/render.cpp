@@ -15,6 +15,7 @@
 #include "base/atomic_file.h"
 #include "film/exr.h"
 #include "film/preview.h"
+#include "integrators/plan_disable.h"
 #include "integrators/render.h"
 
 namespace iride {
@@ -27,6 +28,7 @@ struct Options {
     double seconds = 0, error = 0;
     std::int64_t seed = -1;
     bool quiet = false;
+    std::vector<std::string> plan_disabled;
 };
 
 // Above this share of dropped samples the picture is not to be trusted (exit code 3).
@@ -146,7 +148,7 @@ int run_render(Options const& o) {
     output_space(o.colourspace, scene->film.white);  // to refuse an unknown one before any work
     std::optional<ColourTransform> display;
     if (!out.preview.empty()) display = ColourConfig(o.ocio).to_display("", o.view);
-    RenderPlan const plan = make_plan(*scene);
+    RenderPlan const plan = make_plan_without(o.plan_disabled, *scene);
     std::string const name = o.integrator.empty() ? scene->render.integrator : o.integrator;
     auto const integrator = make_integrator(name, *scene, plan);
     if (!o.quiet)
@@ -213,6 +215,7 @@ Command add_render(CLI::App& app) {
     parser->add_option("--ocio", o->ocio, "OpenColorIO config (default: $OCIO, else the shipped one)");
     parser->add_option("--preview", o->preview, "PNG file to write through the view");
     parser->add_option("--report", o->report, "JSON file to write: times, rays, rejected samples, error");
+    add_plan_disable(*parser, o->plan_disabled);
     parser->add_flag("--quiet", o->quiet, "print errors only");
     return {parser, [o] { return run_render(*o); }};
 }
