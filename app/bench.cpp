@@ -101,7 +101,7 @@ int run_bench(Options& o) {
     o.settings.say = [](std::string const& text) { fmt::print(stderr, "  {}\n", text); };
     nlohmann::ordered_json out{{"version", IRIDE_VERSION},
                                {"processor", processor_name()},
-                               {"threads", std::thread::hardware_concurrency()},
+                               {"processors", std::thread::hardware_concurrency()},
                                {"rounds", o.settings.rounds}};
     bool all_well = true;
     for (bench::Benchmark const& b : chosen) {

@@ -12,7 +12,7 @@ namespace iride::bench {
 
 namespace {
 
-constexpr int spp = 16;
+constexpr int spp = 8;
 
 struct Run {
     double seconds, relative_error;

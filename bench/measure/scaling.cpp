@@ -174,7 +174,7 @@ Rows measure_threads(Settings const& settings) {
 Rows measure_spp(Settings const& settings) {
     Rows rows = Rows::array();
     for (std::string const& name : scenes_of(settings, {"cornell"}))
-        for (int spp : {1, 4, 16, 64, 256}) {
+        for (int spp : {1, 4, 16, 64}) {
             settings.say(fmt::format("spp: {}, {}", name, spp));
             rows.push_back(rate_row({{"scene", name}, {"spp", spp}},
                                     rate_of(*load_for_picture(name), spp, settings.threads, settings.rounds)));
