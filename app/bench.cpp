@@ -4,6 +4,7 @@
 
 #include <fstream>
 #include <memory>
+#include <thread>
 
 #include "app/bench_plot.h"
 #include "app/command.h"

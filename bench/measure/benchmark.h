@@ -51,8 +51,7 @@ Rows measure_resolution(Settings const&);
 Rows measure_plan(Settings const&);
 Rows run_stress(Settings const&);
 
-// Slope of the least-squares line through log(y) over log(x), and where that line, or the line between the two points
-// beside it, meets a value of y.
+// The least-squares line through log(y) over log(x), of two points or more of different x.
 struct PowerLaw {
     double slope, scale;  // y = scale x^slope
     double x_at(double y) const;
