@@ -20,7 +20,7 @@ std::optional<Vector2> read_roughness(Fields& f, bool may_be_smooth) {
     if (!alphas) return std::nullopt;
     bool const smooth = (*alphas)[0] == 0 && (*alphas)[1] == 0;
     for (double const alpha : *alphas)
-        if (!(smooth && may_be_smooth) && !(alpha >= static_cast<double>(smallest_roughness) && alpha <= 1)) {
+        if (!(smooth && may_be_smooth) && !(static_cast<float>(alpha) >= smallest_roughness && alpha <= 1)) {
             f.error_at("roughness", fmt::format("found {:g}, allowed: {}0.001 .. 1, or a pair of such numbers", alpha,
                                                 may_be_smooth ? "0 (smooth), " : ""));
             return std::nullopt;

@@ -47,8 +47,8 @@ class Stress {
         cases_.push_back({name, samples_, value, limit, value <= limit});
     }
 
-    // Pixels whose Y is `expected` within 5 of their own standard errors, or, where those are tiny, within a rounding;
-    // the mean of the picture within 4.
+    // Pixels whose Y is `expected` within 6 standard errors, their own or the picture's usual one if that is larger
+    // (few samples may all miss what is rare); the mean of the picture within 4.
     void expect_everywhere(std::string const& name, Film const& film, double expected) {
         constexpr double rounding = 1e-4;  // of floats along a path, relative
         constexpr double outliers = 2e-3;  // of pixels: their errors are no normal ones at these counts
@@ -56,13 +56,15 @@ class Stress {
         double mean = 0, variance = 0, beyond = 0;
         for (int y = 0; y < film.height(); ++y)
             for (int x = 0; x < film.width(); ++x) {
-                double const Y = film.mean(x, y).Y, v = film.variance(x, y).Y;
-                mean += Y / n;
-                variance += v / (n * n);
-                beyond += std::abs(Y - expected) > 5 * std::sqrt(v) + rounding * expected;
+                mean += film.mean(x, y).Y / n;
+                variance += film.variance(x, y).Y / n;
             }
+        for (int y = 0; y < film.height(); ++y)
+            for (int x = 0; x < film.width(); ++x)
+                beyond += std::abs(film.mean(x, y).Y - expected) >
+                          6 * std::sqrt(std::max(variance, film.variance(x, y).Y)) + rounding * expected;
         add(name + ": the mean is off, in standard errors",
-            std::max(0.0, std::abs(mean - expected) - rounding * expected) / std::sqrt(variance + 1e-30), 4);
+            std::max(0.0, std::abs(mean - expected) - rounding * expected) / std::sqrt(variance / n + 1e-30), 4);
         add(name + ": share of pixels that are off", beyond / n, outliers);
     }
 
@@ -142,7 +144,7 @@ void difficult_geometry(Stress& s) {
                            triangles, white);
     };
     std::string const slivers =
-        mesh("[-1,-.5,0],[1,-.5,0],[1,-.4999999,0],[-1,0,0],[1,0,.0000001],[1,.0001,0]", "[0,1,2],[3,4,5]") + "," +
+        mesh("[-1,-0.5,0],[1,-0.5,0],[1,-0.4999999,0],[-1,0,0],[1,0,0.0000001],[1,0.0001,0]", "[0,1,2],[3,4,5]") + "," +
         sphere({0, .3, 0}, .3, white);
     std::string const no_area =
         mesh("[0,0,0],[1,1,0],[2,2,0],[0,0,0],[-1,-1,0],[1,-1,0],[0,1,0]", "[0,1,2],[0,0,1],[3,3,3],[4,5,6]");
@@ -235,8 +237,8 @@ void one_wavelength(Stress& s) {
         {0, 0, -4}, {0, 0, 0}, 30,
         fmt::format(R"("wavelengths_nm": [550, 550.001], "shapes": [ {} ], {})", sphere({0, 0, 0}, 1, white), furnace));
     Film const film = s.render_text("one wavelength", text);
-    double const expected = cie1931_2deg().at(550).Y * 0.001 /
-                            cie1931_2deg().integrate(SpectralFunction::constant(1)).Y;
+    double const expected =
+        cie1931_2deg().at(550).Y * 0.001 / cie1931_2deg().integrate(SpectralFunction::constant(1)).Y;
     s.expect_everywhere("one wavelength", film, expected);
 }
 
@@ -281,7 +283,8 @@ void single_against_double(Stress& s, int rays) {
         double const along = o.dot(d) / d.squaredNorm(),
                      gap = square(along) - (o.squaredNorm() - square(radius)) / d.squaredNorm();
         double const exact = -along - std::sqrt(gap);
-        worst = std::max(worst, hit ? std::abs(static_cast<double>(hit->distance) / exact - 1) : static_cast<double>(infinity));
+        worst = std::max(
+            worst, hit ? std::abs(static_cast<double>(hit->distance) / exact - 1) : static_cast<double>(infinity));
     }
     s.add(fmt::format("{} rays to a sphere: relative error of the distance", rays), worst, 1e-5);
 }
