@@ -26,5 +26,9 @@ Command add_radiosity(CLI::App& app);
 Command add_compare(CLI::App& app);
 Command add_colour(CLI::App& app);
 Command add_material(CLI::App& app);
+Command add_bench(CLI::App& app);
+
+// --plan-disable NAME, of render and plan.
+void add_plan_disable(CLI::App& parser, std::vector<std::string>& disabled);
 
 }  // namespace iride

@@ -5,15 +5,20 @@
 #include <memory>
 
 #include "app/command.h"
-#include "integrators/plan.h"
+#include "integrators/plan_disable.h"
 
 namespace iride {
 
 namespace {
 
-int print_plan(std::string const& name) {
-    auto const scene = load_scene(find_scene(name));
-    RenderPlan const plan = make_plan(*scene);
+struct Options {
+    std::string scene;
+    std::vector<std::string> disabled;
+};
+
+int print_plan(Options const& o) {
+    auto const scene = load_scene(find_scene(o.scene));
+    RenderPlan const plan = make_plan_without(o.disabled, *scene);
     fmt::print("{}: {}\n", scene->name, scene->description);
     fmt::print("  {} shapes, {} materials, {} lights, {} x {} pixels\n\n", scene->shapes.size(),
                scene->materials.size(), scene->lights.size(), scene->film.width, scene->film.height);
@@ -25,11 +30,22 @@ int print_plan(std::string const& name) {
 
 }  // namespace
 
+void add_plan_disable(CLI::App& parser, std::vector<std::string>& disabled) {
+    std::string names;
+    for (PlanSwitch const& s : plan_switches())
+        names += fmt::format("\n  {}: {}{}", s.name, s.instead, s.same_picture ? "" : " (the same in the mean alone)");
+    parser
+        .add_option("--plan-disable", disabled,
+                    "switch a decision of the plan off, to see what it saves; may be repeated:" + names)
+        ->allow_extra_args(false);
+}
+
 Command add_plan(CLI::App& app) {
     CLI::App* const parser = app.add_subcommand("plan", "What a scene needs, what is skipped, and why");
-    auto const scene = std::make_shared<std::string>();
-    parser->add_option("SCENE", *scene, "a scene file or the name of a shipped scene")->required();
-    return {parser, [scene] { return print_plan(*scene); }};
+    auto const o = std::make_shared<Options>();
+    parser->add_option("SCENE", o->scene, "a scene file or the name of a shipped scene")->required();
+    add_plan_disable(*parser, o->disabled);
+    return {parser, [o] { return print_plan(*o); }};
 }
 
 }  // namespace iride

@@ -18,6 +18,7 @@
 #include "film/preview.h"
 #include "integrators/adaptive.h"
 #include "integrators/layers.h"
+#include "integrators/plan_disable.h"
 #include "integrators/radiosity/radiosity.h"
 #include "integrators/radiosity/solution_file.h"
 
@@ -33,6 +34,7 @@ struct Options {
     std::int64_t seed = -1;
     std::uint32_t first_sample = 0;
     bool adaptive = false, quiet = false;
+    std::vector<std::string> plan_disabled;
 };
 
 // Above this share of dropped samples the picture is not to be trusted (exit code 3).
@@ -238,7 +240,7 @@ int run_render(Options const& o) {
     output_space(o.colourspace, scene->film.white);  // to refuse an unknown one before any work
     std::optional<ColourTransform> display;
     if (!out.preview.empty()) display = ColourConfig(o.ocio).to_display("", o.view);
-    RenderPlan const plan = make_plan(*scene);
+    RenderPlan const plan = make_plan_without(o.plan_disabled, *scene);
     std::string const name = o.integrator.empty() ? scene->render.integrator : o.integrator;
     if (!o.solution.empty() && name != "radiosity")
         fail("--solution", fmt::format("found integrator '{}', allowed: radiosity", name));
@@ -335,6 +337,7 @@ Command add_render(CLI::App& app) {
     parser->add_option("--preview", o->preview, "PNG file to write through the view");
     parser->add_option("--solution", o->solution, "with --integrator radiosity: what iride radiosity --save wrote");
     parser->add_option("--report", o->report, "JSON file to write: times, rays, rejected samples, error");
+    add_plan_disable(*parser, o->plan_disabled);
     parser->add_flag("--quiet", o->quiet, "print errors only");
     return {parser, [o] { return run_render(*o); }};
 }

@@ -109,9 +109,10 @@ double packet_noise(WavelengthSampler const& sampler, SpectralFunction const& li
 }
 
 // The quieter of the two in this scene's light.
-SpectralFunction seen_importance(Scene const& scene, WavelengthRange const& range) {
+SpectralFunction seen_importance(Scene const& scene, RenderPlan const& plan) {
     SpectralFunction const plain = visible_importance(), light = lamplight(scene);
-    if (!(light.integral(range) > 0) || !(cie1931_2deg().integrate(light).Y > 0)) return plain;
+    WavelengthRange const& range = plan.wavelengths;
+    if (plan.observer_alone || !(light.integral(range) > 0) || !(cie1931_2deg().integrate(light).Y > 0)) return plain;
     SpectralFunction const fitted = fitted_importance(light, range);
     double const noise_plain = packet_noise(WavelengthSampler(range, plain, scene.grid), light);
     return packet_noise(WavelengthSampler(range, fitted, scene.grid), light) < noise_plain ? fitted : plain;
@@ -120,7 +121,7 @@ SpectralFunction seen_importance(Scene const& scene, WavelengthRange const& rang
 }  // namespace
 
 WavelengthSampler make_wavelength_sampler(Scene const& scene, RenderPlan const& plan) {
-    SpectralFunction const seen = seen_importance(scene, plan.wavelengths);
+    SpectralFunction const seen = seen_importance(scene, plan);
     if (!plan.bands) return WavelengthSampler(plan.wavelengths, seen, scene.grid);
     WavelengthRange const bands = scene.film.band_range;
     double const total = seen.integral(plan.wavelengths);

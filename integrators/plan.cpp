@@ -34,23 +34,6 @@ WavelengthRange seen_range(Scene const& scene) {
     return both.min_nm < both.max_nm ? both : scene.wavelengths;
 }
 
-// What camera rays start in, at places all over the lens and the window; absent if they differ.
-std::optional<Surroundings> surroundings_of_camera(Scene const& scene) {
-    constexpr int places = 5;
-    Camera const camera(scene.camera, scene.film.width, scene.film.height);
-    std::optional<Surroundings> first;
-    for (int i = 0; i < places * places; ++i) {
-        float const x = static_cast<float>(i % places) / (places - 1),
-                    y = static_cast<float>(i / places) / (places - 1);
-        Ray const ray =
-            camera.ray(x * static_cast<float>(scene.film.width), y * static_cast<float>(scene.film.height), {x, y});
-        Surroundings const here = surroundings_at(scene, ray.origin);
-        if (!first) first = here;
-        if (!(here == *first)) return std::nullopt;
-    }
-    return first;
-}
-
 bool decided(RenderPlan& plan, std::string name, bool used, std::string reason) {
     plan.decisions.push_back({std::move(name), used, std::move(reason)});
     return used;
@@ -81,6 +64,22 @@ void decide_surfaces(Scene const& scene, RenderPlan& plan) {
 }
 
 }  // namespace
+
+std::optional<Surroundings> surroundings_of_camera(Scene const& scene) {
+    constexpr int places = 5;
+    Camera const camera(scene.camera, scene.film.width, scene.film.height);
+    std::optional<Surroundings> first;
+    for (int i = 0; i < places * places; ++i) {
+        float const x = static_cast<float>(i % places) / (places - 1),
+                    y = static_cast<float>(i / places) / (places - 1);
+        Ray const ray =
+            camera.ray(x * static_cast<float>(scene.film.width), y * static_cast<float>(scene.film.height), {x, y});
+        Surroundings const here = surroundings_at(scene, ray.origin);
+        if (!first) first = here;
+        if (!(here == *first)) return std::nullopt;
+    }
+    return first;
+}
 
 RenderPlan make_plan(Scene const& scene) {
     RenderPlan plan;

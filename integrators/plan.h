@@ -17,7 +17,8 @@ struct RenderPlan {
     bool environment = false;     // paths that leave the scene may bring radiance
     WavelengthRange wavelengths;  // where lamps and (observer or bands) overlap: what is sampled
     bool bands = false;
-    bool ray_cones = false;  // a texture is averaged over what a path stands for
+    bool ray_cones = false;       // a texture is averaged over what a path stands for
+    bool observer_alone = false;  // wavelengths are not drawn for the lamps, even where that is quieter
     std::optional<int> max_bounces;
     std::optional<Surroundings> camera_in;  // absent: not the same for all camera rays
 
@@ -30,5 +31,8 @@ struct RenderPlan {
 };
 
 RenderPlan make_plan(Scene const& scene);
+
+// What camera rays start in, at places all over the lens and the window; absent if they differ.
+std::optional<Surroundings> surroundings_of_camera(Scene const& scene);
 
 }  // namespace iride

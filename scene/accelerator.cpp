@@ -392,6 +392,24 @@ Vector Accelerator::upper_bound() const {
     rtcGetSceneBounds(implementation_->scene, &b);
     return b.lower_x <= b.upper_x ? Vector(b.upper_x, b.upper_y, b.upper_z) : Vector(0, 0, 0);
 }
-void* Accelerator::embree_scene() const { return implementation_->scene; }
+
+std::uint64_t Accelerator::trace_bare(std::span<RecordedRay const> rays) const {
+    std::uint64_t hits = 0;
+    for (RecordedRay const& recorded : rays) {
+        RTCRayHit rh;
+        rh.ray = to_embree(recorded.ray);
+        rh.hit.geomID = rh.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+        RTCIntersectContext context;
+        rtcInitIntersectContext(&context);
+        if (recorded.shadow) {
+            rtcOccluded1(implementation_->scene, &context, &rh.ray);
+            hits += rh.ray.tfar < 0;
+        } else {
+            rtcIntersect1(implementation_->scene, &context, &rh);
+            hits += rh.hit.geomID != RTC_INVALID_GEOMETRY_ID;
+        }
+    }
+    return hits;
+}
 
 }  // namespace iride

@@ -81,8 +81,8 @@ class Accelerator {
     Vector lower_bound() const;
     Vector upper_bound() const;
 
-    // The scene as Embree knows it, for the benchmark that traces the same rays bare.
-    void* embree_scene() const;
+    // How many of the rays hit: a loop of rtcIntersect1 and rtcOccluded1 alone, what the benchmarks call bare Embree.
+    std::uint64_t trace_bare(std::span<RecordedRay const> rays) const;
 
   private:
     struct Implementation;

@@ -8,6 +8,7 @@
 #include "base/random.h"
 #include "colour/rgb_space.h"
 #include "scene/bodies.h"
+#include "scene/float_grid.h"
 #include "scene/readers.h"
 
 namespace iride {
@@ -210,6 +211,7 @@ std::unique_ptr<Scene> load_scene(std::filesystem::path const& path) {
     scene->accelerator = std::make_unique<Accelerator>(scene->shapes, scene->objects, scene->instances);
     if (auto wrong = check_nesting(*scene, path.string(), scene->remarks); !wrong.empty())
         throw InputError(std::move(wrong));
+    if (auto remark = remark_on_float_grid(*scene)) scene->remarks.push_back(std::move(*remark));
     scene->lights = LightSet(std::move(builder.lights), scene->radius());
     return scene;
 }

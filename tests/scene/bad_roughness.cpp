@@ -30,6 +30,7 @@ TEST_CASE("roughness out of its range is refused", "[input]") {
     CHECK_THAT(refusal(R"("roughness": "rough")"), Contains("materials.m.roughness"));
     CHECK_THAT(refusal(R"("roughness": 3)", R"("type": "dielectric", "ior": 1.5)"), Contains("found 3, allowed"));
     CHECK(refusal(R"("roughness": [0.001, 1], "rotation_deg": -30)") == "(accepted)");
+    CHECK(refusal(R"("roughness": 0.001)", R"("type": "dielectric", "ior": 1.5)") == "(accepted)");
 }
 TEST_CASE("mixtures of facets must be whole", "[input]") {
     CHECK_THAT(refusal(R"("facets": [ { "weight": 0.5, "roughness": 0.1 }, { "weight": 0.4, "roughness": 0.3 } ])"),

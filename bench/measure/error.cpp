@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+// Error against time: relMSE and mean CIEDE2000 (as `iride compare` has them) against the reference, at doubling sample
+// counts, each an independent render; a power law fitted to what lies well above the reference's own error.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "bench/measure/clock.h"
+#include "bench/measure/reference.h"
+
+namespace iride::bench {
+
+namespace {
+
+// An error is told by a reference whose own is at most a quarter of it.
+constexpr double clearly_above = 4;
+
+struct Point {
+    int spp;
+    double seconds, relmse, delta_e_2000;
+};
+
+struct Curve {
+    std::string scene, integrator;
+    double setup_seconds;
+    std::vector<Point> points;
+};
+
+// The time at which an error is reached: between two points where they bracket it, else by the power law; absent if
+// there are too few points, if errors do not fall, or if it is more than an hour.
+struct Reached {
+    std::optional<double> seconds;
+    bool measured;
+};
+using Curve2 = std::vector<std::pair<double, double>>;  // seconds, error
+
+Reached time_to(double target, Curve2 const& all, Curve2 const& fitted) {
+    if (!all.empty() && all.front().second <= target) return {all.front().first, true};
+    for (std::size_t i = 1; i < all.size(); ++i)
+        if (all[i].second <= target && all[i - 1].second > target) {
+            std::array const pair{all[i - 1], all[i]};
+            return {fit_power_law(pair).x_at(target), true};
+        }
+    if (fitted.size() < 3) return {std::nullopt, false};
+    PowerLaw const law = fit_power_law(fitted);
+    constexpr double too_long = 3600;
+    double const seconds = law.x_at(target);
+    if (!(law.slope < -0.05) || !(seconds < too_long)) return {std::nullopt, false};
+    return {seconds, false};
+}
+
+nlohmann::ordered_json as_json(Reached const& r) {
+    return r.seconds ? nlohmann::ordered_json(*r.seconds) : nlohmann::ordered_json(nullptr);
+}
+
+Curve measure_curve(Scene const& scene, std::string const& name, Reference const& reference, Settings const& settings) {
+    RenderPlan const plan = make_plan(scene);
+    Clock::time_point const start = Clock::now();
+    auto const integrator = make_integrator(name, scene, plan);
+    Curve curve{scene.name, name, seconds_since(start), {}};
+    double used = 0, last = 0;
+    for (int spp = 1; spp <= 1 << 16 && used + 2 * last <= settings.error_seconds; spp *= 2) {
+        Film film = make_film(scene);
+        RenderSettings const r{.spp = spp, .seed = static_cast<std::uint64_t>(spp), .threads = settings.threads};
+        last = render(scene, plan, *integrator, r, film).seconds;
+        used += last;
+        Comparison const c = compare(picture_of(film), reference.picture);
+        curve.points.push_back({spp, last + curve.setup_seconds, c.relmse, c.delta_e_2000_mean});
+    }
+    return curve;
+}
+
+nlohmann::ordered_json summary(Curve const& curve, Reference const& reference) {
+    Curve2 relmse, colour, relmse_fitted, colour_fitted;
+    nlohmann::ordered_json points = nlohmann::ordered_json::array();
+    for (Point const& p : curve.points) {
+        relmse.emplace_back(p.seconds, p.relmse);
+        colour.emplace_back(p.seconds, p.delta_e_2000);
+        constexpr int settled_spp = 4;  // fewer: the sampler's strata are not filled
+        if (p.spp >= settled_spp && p.relmse > clearly_above * reference.relmse) relmse_fitted.push_back(relmse.back());
+        if (p.spp >= settled_spp && p.delta_e_2000 > clearly_above * reference.delta_e_2000)
+            colour_fitted.push_back(colour.back());
+        points.push_back(
+            {{"spp", p.spp}, {"seconds", p.seconds}, {"relmse", p.relmse}, {"delta_e_2000", p.delta_e_2000}});
+    }
+    Reached const e2 = time_to(1e-2, relmse, relmse_fitted), e3 = time_to(1e-3, relmse, relmse_fitted),
+                  de = time_to(1, colour, colour_fitted);
+    Point const& last = curve.points.back();
+    nlohmann::ordered_json slope = nullptr;
+    if (relmse_fitted.size() >= 3) slope = fit_power_law(relmse_fitted).slope;
+    return {{"scene", curve.scene},
+            {"integrator", curve.integrator},
+            {"spp", last.spp},
+            {"seconds", last.seconds},
+            {"relmse", last.relmse},
+            {"delta_e_2000", last.delta_e_2000},
+            {"reference_relmse", reference.relmse},
+            {"reference_delta_e", reference.delta_e_2000},
+            {"slope", slope},
+            {"s_to_relmse_1e-2", as_json(e2)},
+            {"s_to_relmse_1e-3", as_json(e3)},
+            {"s_to_delta_e_1", as_json(de)},
+            {"extrapolated", !(e2.measured && e3.measured && de.measured)},
+            {"setup_seconds", curve.setup_seconds},
+            {"points", points}};
+}
+
+// Every integrator, or those asked for; an integrator that cannot do the scene is left out.
+std::vector<std::string> integrators_of(Settings const& settings) {
+    if (!settings.integrators.empty()) return settings.integrators;
+    std::vector<std::string> names;
+    for (IntegratorEntry const& e : integrator_entries()) names.emplace_back(e.name);
+    return names;
+}
+
+}  // namespace
+
+Rows measure_error(Settings const& settings) {
+    Rows rows = Rows::array();
+    for (std::string const& name : scenes_of(settings, all_scenes())) {
+        auto const scene = load_for_picture(name);
+        Reference const reference = reference_of(*scene, settings);
+        for (std::string const& integrator : integrators_of(settings)) {
+            settings.say(fmt::format("error: {} by {}", name, integrator));
+            try {
+                rows.push_back(summary(measure_curve(*scene, integrator, reference, settings), reference));
+            } catch (InputError const& e) {
+                settings.say(fmt::format("error: {} is no scene for {}: {}", name, integrator, e.what()));
+            }
+        }
+    }
+    return rows;
+}
+
+Rows measure_peers(Settings const& settings) {
+    constexpr int spp = 64, threads = 2;
+    Rows rows = Rows::array();
+    for (std::string const& name :
+         scenes_of(settings, {"cornell", "cornell-gold", "metals", "metals-furnace", "prism", "glass-spheres"})) {
+        auto const scene = load_for_picture(name);
+        Reference const reference = reference_of(*scene, settings);
+        RenderPlan const plan = make_plan(*scene);
+        auto const integrator = make_integrator(scene->render.integrator, *scene, plan);
+        std::vector<double> seconds, relmse, colour;
+        for (int round = 0; round < settings.rounds; ++round) {
+            settings.say(fmt::format("peers: {}, round {}", name, round + 1));
+            Film film = make_film(*scene);
+            RenderSettings const r{.spp = spp, .seed = static_cast<std::uint64_t>(round), .threads = threads};
+            seconds.push_back(render(*scene, plan, *integrator, r, film).seconds);
+            Comparison const c = compare(picture_of(film), reference.picture);
+            relmse.push_back(c.relmse);
+            colour.push_back(c.delta_e_2000_mean);
+        }
+        Spread const t = spread_of(seconds), e = spread_of(relmse);
+        double const paths = static_cast<double>(spp) * picture_size * picture_size;
+        rows.push_back({{"scene", scene->name},
+                        {"integrator", scene->render.integrator},
+                        {"seconds", t.median},
+                        {"seconds_least", t.least},
+                        {"seconds_most", t.most},
+                        {"relmse", e.median},
+                        {"relmse_least", e.least},
+                        {"relmse_most", e.most},
+                        {"reference_relmse", reference.relmse},
+                        {"delta_e_2000", spread_of(colour).median},
+                        {"kpaths_per_s_core", paths / t.median / threads / 1000},
+                        {"seconds_times_relmse", t.median * e.median}});
+    }
+    return rows;
+}
+
+}  // namespace iride::bench
