@@ -25,5 +25,6 @@ Command add_radiosity(CLI::App& app);
 Command add_compare(CLI::App& app);
 Command add_colour(CLI::App& app);
 Command add_material(CLI::App& app);
+Command add_depth_cue(CLI::App& app);
 
 }  // namespace iride
