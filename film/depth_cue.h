@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Depth cueing: what is further away fades to a colour. A post filter on a picture that has its depth beside it; the
 // light of the scene itself is attenuated by media (materials/medium.h).
-//   C' = s C + (1 - s) C_cue,   s = s_front + (s_back - s_front) (z - front) / (back - front)       [Foley
-//   1990, 16.1.3]
-// between the two depths, s_front before and s_back behind.
+//   C' = s C + (1 - s) C_cue,   s = s_front + (s_back - s_front) (z - front) / (back - front)
+// between the two depths, s_front before and s_back behind. [Foley 1990, 16.1.3]
 #pragma once
 
 #include <array>
