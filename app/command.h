@@ -30,5 +30,6 @@ Command add_bench(CLI::App& app);
 
 // --plan-disable NAME, of render and plan.
 void add_plan_disable(CLI::App& parser, std::vector<std::string>& disabled);
+Command add_depth_cue(CLI::App& app);
 
 }  // namespace iride

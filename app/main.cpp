@@ -18,8 +18,9 @@ int run(int argc, char** argv) {
     app.footer(
         "Exit codes: 0 done, 2 bad input, 3 result not trustworthy, 130 interrupted after saving.\n"
         "JSON goes to stdout, everything else to stderr. 'iride COMMAND --help' lists a command's options.");
-    std::array const commands{add_render(app), add_merge(app),    add_scenes(app),    add_plan(app), add_compare(app),
-                              add_colour(app), add_material(app), add_radiosity(app), add_bench(app)};
+    std::array const commands{add_render(app),  add_merge(app),    add_scenes(app),   add_plan(app),
+                              add_compare(app), add_colour(app),   add_material(app), add_radiosity(app),
+                              add_bench(app),   add_depth_cue(app)};
     try {
         app.parse(argc, argv);
     } catch (CLI::ParseError const& e) {

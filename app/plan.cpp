@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "app/command.h"
+#include "app/vanishing_points.h"
 #include "integrators/plan_disable.h"
 
 namespace iride {
@@ -24,6 +25,7 @@ int print_plan(Options const& o) {
                scene->materials.size(), scene->lights.size(), scene->film.width, scene->film.height);
     for (RenderPlan::Decision const& d : plan.decisions)
         fmt::print("  {:<8}{:<18}{}\n", d.used ? "used" : "skipped", d.name, d.reason);
+    fmt::print("\n{}\n", vanishing_points(*scene));
     for (std::string const& remark : scene->remarks) fmt::print("  note    {}\n", remark);
     return exit_done;
 }

@@ -44,6 +44,9 @@ struct ExtraLayers {
 void write_exr(Film const& film, ExrSettings const& settings, std::filesystem::path const& path,
                ExtraLayers const& extra = {});
 
+// Throws InputError for what is no flat OpenEXR file of a sane size; reading may still find it damaged.
+void check_exr(std::filesystem::path const& path);
+
 // A picture read back as XYZ: from its X Y Z channels, or R G B by its own chromaticities (linear Rec.709 if it names
 // none) and, if it has a sceneWhite, with the adaptation undone. `variance` is empty unless the file has it (and then
 // refers to exposure 1). Any OpenEXR file; throws InputError if it is missing, truncated, no EXR, deep or has no

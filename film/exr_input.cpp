@@ -176,7 +176,7 @@ XyzPicture read(std::filesystem::path const& path) {
 
 }  // namespace
 
-XyzPicture read_exr_as_xyz(std::filesystem::path const& path) {
+void check_exr(std::filesystem::path const& path) {
     std::error_code error;
     if (!std::filesystem::exists(path, error)) fail(path, "no such file");
     if (!std::filesystem::is_regular_file(path, error)) fail(path, "is not a regular file");
@@ -186,6 +186,10 @@ XyzPicture read_exr_as_xyz(std::filesystem::path const& path) {
     check_attribute_sizes(path);
     Imf::Header::setMaxImageSize(largest_side, largest_side);
     Imf::Header::setMaxTileSize(largest_tile, largest_tile);
+}
+
+XyzPicture read_exr_as_xyz(std::filesystem::path const& path) {
+    check_exr(path);
     try {
         return read(path);
     } catch (InputError const&) {

@@ -26,6 +26,7 @@ struct IntegratorEntry {
     char const* name;
     char const* summary;
     std::unique_ptr<Integrator> (*make)(Scene const&, RenderPlan const&);
+    bool through_media = false;  // follows light where a medium scatters, or fills the space between all bodies
 };
 std::span<IntegratorEntry const> integrator_entries();
 // What an integrator works out before the first path is done here. Throws InputError with the nearest name.

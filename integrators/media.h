@@ -9,18 +9,29 @@
 
 namespace iride {
 
-// Take the weight along the ray to its end; no hit: to infinity. True if there is a surface that is none: the ray then
-// goes on behind it.
-inline bool travel(Scene const& scene, Hit const* hit, Wavelengths const& wavelengths, Ray& ray,
-                   Surroundings& surroundings, Throughput& weight) {
+// What a ray goes through on its way to a hit, or to infinity.
+inline Medium const& medium_before(Scene const& scene, Hit const* hit, Ray const& ray, Surroundings& surroundings) {
+    if (Body const* const body = hit ? body_at(scene, *hit) : nullptr)
+        surroundings.meet(*body, is_met_in_front(*hit, ray.direction));
+    return surroundings.medium();
+}
+
+// True if the surface that was met is none: the ray then goes on behind it.
+inline bool pass(Scene const& scene, Hit const* hit, Ray& ray, Surroundings& surroundings) {
     Body const* const body = hit ? body_at(scene, *hit) : nullptr;
     bool const front = hit && is_met_in_front(*hit, ray.direction);
-    if (body) surroundings.meet(*body, front);
-    weight *= surroundings.medium().transmittance(hit ? hit->distance : infinity, wavelengths);
     if (!body || !surroundings.is_no_surface(*body, front)) return false;
     surroundings.cross(*body, front);
     ray = spawn_ray(hit->point, ray.direction);
     return true;
+}
+
+// Take the weight along the ray to its end; no hit: to infinity. True as pass().
+inline bool travel(Scene const& scene, Hit const* hit, Wavelengths const& wavelengths, Ray& ray,
+                   Surroundings& surroundings, Throughput& weight) {
+    Medium const& medium = medium_before(scene, hit, ray, surroundings);
+    weight *= medium.transmittance(hit ? hit->distance : infinity, wavelengths);
+    return pass(scene, hit, ray, surroundings);
 }
 
 // What a path that comes along wo and goes on along wi, both local, is in then.

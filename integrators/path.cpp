@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "integrators/media.h"
+#include "integrators/flight.h"
 
 namespace iride {
 
@@ -67,8 +67,8 @@ struct Unshadowed {
 
 struct NotCarried {};
 
-// A path under way, at its latest vertex.
-template <bool Media>
+// A path under way, at its latest vertex: on a surface, or afloat in a medium that scatters.
+template <bool Media, bool Scattering>
 struct Walk {
     PathState state;
     Arrival arrival;
@@ -79,11 +79,22 @@ struct Walk {
     std::optional<Interaction> here;
     std::optional<Unshadowed> direct;
     [[no_unique_address]] std::conditional_t<Media, Surroundings, NotCarried> in;
+    [[no_unique_address]] std::conditional_t<Scattering, std::optional<Afloat>, NotCarried> afloat;
+
+    bool is_afloat() const {
+        if constexpr (Scattering) return afloat.has_value();
+        return false;
+    }
+    Vector place() const {
+        if constexpr (Scattering)
+            if (afloat) return afloat->position;
+        return hit.point.position;
+    }
 };
 
 // The paths of a batch go on together, stage by stage: within a stage they are independent of one another, and the
 // processor works on several of their long chains of dependent arithmetic at a time.
-template <bool Dispersive, bool Media>
+template <bool Dispersive, bool Media, bool Scattering = false>
 class Path final : public Integrator {
   public:
     explicit Path(RenderPlan const& plan)
@@ -119,7 +130,8 @@ class Path final : public Integrator {
     }
 
   private:
-    using Walk = iride::Walk<Media>;
+    static_assert(!Scattering || (Dispersive && Media), "flights leave each lane its own reach");
+    using Walk = iride::Walk<Media, Scattering>;
     using Walks = std::array<Walk, batch_size>;
 
     static void find_hits(Scene const& scene, std::span<CameraPath const> paths, Walks& walks, Alive const& alive,
@@ -134,11 +146,25 @@ class Path final : public Integrator {
         alive.for_each([&](std::size_t i) { walks[i].has_hit = queries[count++].found; });
     }
 
-    // Through surfaces that are none to the first that is one; false if there is no end to them.
+    // Take the path along its ray; true if the surface there is none.
+    static bool travel_once(Scene const& scene, CameraPath& path, Walk& walk, [[maybe_unused]] Flight& flight) {
+        Hit const* const hit = walk.has_hit ? &walk.hit : nullptr;
+        if constexpr (!Scattering) {
+            return travel(scene, hit, path.wavelengths, path.ray, walk.in, walk.state.weight);
+        } else {
+            float passing = 1;
+            bool const through =
+                fly(scene, hit, path.wavelengths, flight, path.ray, walk.in, walk.state, passing, walk.afloat);
+            if (walk.arrival.density) walk.arrival.density->value *= passing;
+            return through;
+        }
+    }
+
+    // Through surfaces that are none to the first that is one, or to a scattering; false if there is no end to them.
     bool travel_on(Scene const& scene, CameraPath& path, Walk& walk, RayStatistics& statistics) const {
-        for (int passed = 0;
-             travel(scene, walk.has_hit ? &walk.hit : nullptr, path.wavelengths, path.ray, walk.in, walk.state.weight);
-             ++passed) {
+        Flight flight(Scattering ? path.sampler.next() : 0);
+        if constexpr (Scattering) walk.afloat.reset();
+        for (int passed = 0; travel_once(scene, path, walk, flight); ++passed) {
             if (walk.hit.shape->light >= 0) path.radiance += from_emitter(scene, path, walk);
             walk.arrival.density.reset();  // shadow rays end here: no light sample gets further
             if (passed == longest_path) return path.complete = false;
@@ -178,6 +204,10 @@ class Path final : public Integrator {
 
     // What is emitted where the ray ends, and the surface there; false if the path ends with it.
     bool arrive(Scene const& scene, CameraPath& path, Walk& walk, int bounce) const {
+        if (walk.is_afloat()) {
+            if (bounce >= max_bounces_) path.complete = max_bounces_ < longest_path;
+            return bounce < max_bounces_;
+        }
         if (!walk.has_hit) {
             if (environment_) path.radiance += from_environment(scene, path, walk);
             return false;
@@ -228,14 +258,15 @@ class Path final : public Integrator {
         std::size_t count = 0;
         alive.for_each([&](std::size_t i) {
             walks[i].direct.reset();
-            if (walks[i].here->bsdf.has_density()) all[count++] = {i, scene.lights.choose(walks[i].numbers.choices.x)};
+            if (walks[i].is_afloat() || walks[i].here->bsdf.has_density())
+                all[count++] = {i, scene.lights.choose(walks[i].numbers.choices.x)};
         });
         std::span<Asking> const asking(all.data(), count);
         if (scene.lights.size() > 1) std::ranges::sort(asking, {}, [](Asking const& a) { return a.choice.index; });
         std::array<LightRequest, batch_size> requests;
         for (std::size_t k = 0; k < count; ++k) {
             std::size_t const i = asking[k].walk;
-            requests[k].from = walks[i].hit.point.position;
+            requests[k].from = walks[i].place();
             requests[k].u = walks[i].numbers.light;
             requests[k].wavelengths = &paths[i].wavelengths;
         }
@@ -245,9 +276,30 @@ class Path final : public Integrator {
             scene.lights.light(light).answer(std::span(requests).subspan(first, last - first));
         }
         for (std::size_t k = 0; k < count; ++k)
-            if (requests[k].sample)
-                weigh(scene, *requests[k].sample, asking[k].choice.probability, *requests[k].wavelengths,
-                      walks[asking[k].walk]);
+            if (requests[k].sample) {
+                CameraPath const& path = paths[asking[k].walk];
+                if (walks[asking[k].walk].is_afloat())
+                    weigh_afloat(*requests[k].sample, asking[k].choice.probability, path, walks[asking[k].walk]);
+                else
+                    weigh(scene, *requests[k].sample, asking[k].choice.probability, path.wavelengths,
+                          walks[asking[k].walk]);
+            }
+    }
+
+    // The same of a light sample that is scattered in a medium.
+    static void weigh_afloat([[maybe_unused]] LightSample const& light, [[maybe_unused]] float choice_probability,
+                             [[maybe_unused]] CameraPath const& path, [[maybe_unused]] Walk& walk) {
+        if constexpr (Scattering) {
+            Medium const& medium = walk.in.medium();
+            float const phase = HenyeyGreenstein(medium.asymmetry, path.ray.direction).density(light.wi).value;
+            Lanes competitors(choice_probability);
+            if (light.density)
+                competitors = passing_probability(medium, light.distance, path.wavelengths) * phase +
+                              Lanes(choice_probability * light.density->value);
+            Throughput const seen = walk.state.weight * medium.transmittance(light.distance, path.wavelengths);
+            walk.direct.emplace(seen * light.radiance * (phase / float(mean(walk.state.reach * competitors))),
+                                shadow_ray(walk.place(), light.wi, light.distance));
+        }
     }
 
     // What a light sample brings along the path if nothing stands between.
@@ -260,9 +312,13 @@ class Path final : public Integrator {
         // In units of a steradian: a density for lights of extent, the Dirac's own measure for the others.
         float const cosine = std::abs(wi.z());
         Lanes competitors;
-        if (light.density)
-            competitors = Lanes(f.density.lane + choice_probability * light.density->value);
-        else
+        if (light.density) {
+            Lanes found(f.density.lane);
+            if constexpr (Scattering)
+                found *= passing_probability(behind(scene, walk.hit, here, wi, walk.in).medium(), light.distance,
+                                             wavelengths);
+            competitors = Lanes(found.lane + choice_probability * light.density->value);
+        } else
             competitors = Lanes(choice_probability);
         float const divisor = Dispersive ? float(mean(walk.state.reach * competitors)) : competitors[0];
         Lanes scattered(f.value.lane * (cosine / divisor));
@@ -274,6 +330,7 @@ class Path final : public Integrator {
 
     // Choose where the path goes on; false if it ends here.
     bool scatter(Scene const& scene, CameraPath& path, Walk& walk) const {
+        if (walk.is_afloat()) return scatter_afloat(path, walk);
         Interaction const& here = *walk.here;
         auto const sample = here.bsdf.sample(here.wo, {walk.numbers.choices.y, walk.numbers.direction});
         if (!sample) return false;
@@ -293,6 +350,18 @@ class Path final : public Integrator {
         return true;
     }
 
+    // In a medium: always on, and in all lanes alike.
+    bool scatter_afloat([[maybe_unused]] CameraPath& path, [[maybe_unused]] Walk& walk) const {
+        if constexpr (Scattering) {
+            HenyeyGreenstein const phase(walk.in.medium().asymmetry, path.ray.direction);
+            Direction const wi = phase.sample(walk.numbers.direction);
+            walk.arrival = {phase.density(wi), walk.place(), mean(walk.state.reach)};
+            if (ray_cones_) walk.cone = walk.cone.scattered(walk.afloat->distance, &*walk.arrival.density);
+            path.ray = {walk.place(), wi};
+        }
+        return true;
+    }
+
     int max_bounces_;
     bool light_sampling_, environment_;
     std::optional<Surroundings> camera_in_;  // absent: to be found for each path
@@ -302,6 +371,7 @@ class Path final : public Integrator {
 }  // namespace
 
 std::unique_ptr<Integrator> make_path(Scene const&, RenderPlan const& plan) {
+    if (plan.scattering) return std::make_unique<Path<true, true, true>>(plan);
     if (plan.media)
         return plan.dispersion ? std::unique_ptr<Integrator>(std::make_unique<Path<true, true>>(plan))
                                : std::make_unique<Path<false, true>>(plan);

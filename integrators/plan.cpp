@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 namespace iride {
 
@@ -63,6 +64,19 @@ void decide_surfaces(Scene const& scene, RenderPlan& plan) {
                                                 : "no texture to average");
 }
 
+std::string joined(std::array<std::string, 2> const& names) {
+    return names[0] + (names[0].empty() || names[1].empty() ? "" : ", ") + names[1];
+}
+
+void decide_scattering(Scene const& scene, RenderPlan& plan) {
+    std::string const bodies = names_of(
+        scene, [](NamedMaterial const& m) { return m.material->body() && m.material->body()->inside.scatters; });
+    std::string const where = joined({scene.open_medium.scatters ? "the medium all around" : "", bodies});
+    plan.scattering = decided(plan, "scattering", !where.empty(),
+                              where.empty() ? "no medium scatters: light goes straight on between surfaces"
+                                            : "free flights, lamps sampled where they end, in: " + where);
+}
+
 }  // namespace
 
 std::optional<Surroundings> surroundings_of_camera(Scene const& scene) {
@@ -101,12 +115,16 @@ RenderPlan make_plan(Scene const& scene) {
     });
     std::string const nested = names_of(
         scene, [](NamedMaterial const& m) { return m.material->body() && m.material->body()->priority.has_value(); });
-    decide("absorption", !absorbing.empty(),
-           absorbing.empty() ? "no transparent body absorbs" : "light is lost on the way through: " + absorbing);
+    bool const open_absorbs = scene.open_medium.absorbs;
+    decide("absorption", !absorbing.empty() || open_absorbs,
+           absorbing.empty() && !open_absorbs ? "no transparent body absorbs"
+                                              : "light is lost on the way through: " +
+                                                    joined({open_absorbs ? "the medium all around" : "", absorbing}));
     decide("nested bodies", !nested.empty(),
            nested.empty() ? "no priorities: each surface knows both its sides, what a path is in is not carried for it"
                           : "what a path is in decides at the surfaces of: " + nested);
-    plan.media = !absorbing.empty() || !nested.empty();
+    decide_scattering(scene, plan);
+    plan.media = plan.scattering || scene.open_medium.absorbs || !absorbing.empty() || !nested.empty();
     if (plan.media) plan.camera_in = surroundings_of_camera(scene);
 
     plan.environment =
@@ -117,11 +135,12 @@ RenderPlan make_plan(Scene const& scene) {
 
     std::string const finite = names_of(scene, [](NamedMaterial const& m) { return m.material->traits.has_density; });
     bool const lamps = scene.lights.has_power();
-    plan.light_sampling = decide("light sampling", lamps && !finite.empty(),
-                                 !lamps           ? "no light has any power"
-                                 : finite.empty() ? "every surface is a mirror, glass or black: lamps are found by "
-                                                    "scattering alone"
-                                                  : fmt::format("{} lights, chosen by power", scene.lights.size()));
+    plan.light_sampling =
+        decide("light sampling", lamps && (!finite.empty() || plan.scattering),
+               !lamps                               ? "no light has any power"
+               : finite.empty() && !plan.scattering ? "every surface is a mirror, glass or black: lamps are found by "
+                                                      "scattering alone"
+                                                    : fmt::format("{} lights, chosen by power", scene.lights.size()));
 
     bool const smooth = std::ranges::any_of(scene.shapes, [](Shape const& s) {
         auto const* m = std::get_if<MeshShape>(&s.geometry);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The oracle: follow the BSDF, add what emits, nothing clever. Noisy and right. Lights without extent are the one thing
 // that scattering cannot find; they are added directly, there is no other way to reach them.
-#include "integrators/media.h"
+#include "integrators/flight.h"
 #include "integrators/path.h"
 
 namespace iride {
@@ -12,6 +12,7 @@ class ReferencePath final : public Integrator {
   public:
     explicit ReferencePath(RenderPlan const& plan)
         : max_bounces_(plan.max_bounces.value_or(longest_path)),
+          scattering_(plan.scattering),
           camera_in_(plan.media ? plan.camera_in : Surroundings()) {}
 
     void follow(Scene const& scene, std::span<CameraPath> paths, RayStatistics& statistics) const override {
@@ -27,14 +28,23 @@ class ReferencePath final : public Integrator {
         PathState state;
         Surroundings in = camera_in_ ? *camera_in_ : surroundings_at(scene, ray.origin);
         for (int bounce = 0, passed = 0;; ++bounce) {
-            // Mixture over lanes only: divide by the mean reach.
-            float const per_reach = 1 / mean(state.reach);
+            sampler.begin_vertex(static_cast<std::uint32_t>(bounce));
+            Flight flight(scattering_ ? sampler.next() : 0);
             std::optional<Hit> hit = scene.accelerator->closest(ray, statistics);
-            while (travel(scene, hit ? &*hit : nullptr, wavelengths, ray, in, state.weight)) {
-                L += state.weight * emitted_at(scene, *hit, ray, wavelengths) * per_reach;
+            std::optional<Afloat> afloat;
+            float passing = 1;  // light samples do not compete here
+            while (fly(scene, hit ? &*hit : nullptr, wavelengths, flight, ray, in, state, passing, afloat)) {
+                L += state.weight * emitted_at(scene, *hit, ray, wavelengths) * (1 / mean(state.reach));
                 if (++passed > longest_path) return void(path.complete = false);
                 hit = scene.accelerator->closest(ray, statistics);
             }
+            // Mixture over lanes only: divide by the mean reach.
+            float const per_reach = 1 / mean(state.reach);
+            if (afloat && bounce < max_bounces_) {
+                if (!scatter_afloat(scene, *afloat, in.medium(), bounce, path, ray, state, statistics)) return;
+                continue;
+            }
+            if (afloat) return void(path.complete = max_bounces_ < longest_path);
             if (!hit) {
                 for (int e : scene.lights.environments())
                     L += state.weight * scene.lights.light(e).arriving(ray.direction, wavelengths) * per_reach;
@@ -46,7 +56,6 @@ class ReferencePath final : public Integrator {
                 return;
             }
 
-            sampler.begin_vertex(static_cast<std::uint32_t>(bounce));
             Sample2 const chances = sampler.next2();  // x: roulette, y: which part of a mixture
             describe_meeting(hit->point, -ray.direction, chances.y);
             Interaction const here(scene, *hit, -ray.direction, wavelengths, &in);
@@ -62,6 +71,27 @@ class ReferencePath final : public Integrator {
             ray = spawn_ray(hit->point, wi);
             if (bounce >= 3 && !survives<true>(state, chances.x)) return;
         }
+    }
+
+    // A scattering in a medium: what lights without extent bring to it, and where the path goes on; false if it ends.
+    static bool scatter_afloat(Scene const& scene, Afloat const& here, Medium const& medium, int bounce,
+                               CameraPath& path, Ray& ray, PathState& state, RayStatistics& statistics) {
+        HenyeyGreenstein const phase(medium.asymmetry, ray.direction);
+        for (std::size_t i = 0; i < scene.lights.size(); ++i)
+            path.radiance +=
+                dirac_light(scene, static_cast<int>(i), here.position, phase, path.wavelengths, medium, statistics) *
+                state.weight * (1 / mean(state.reach));
+        ray = {here.position, phase.sample(path.sampler.next2())};
+        return bounce < 3 || survives<true>(state, path.sampler.next());
+    }
+
+    // What a light without extent brings to a scattering in a medium.
+    static Radiance dirac_light(Scene const& scene, int index, Vector const& from, HenyeyGreenstein const& phase,
+                                Wavelengths const& wavelengths, Medium const& medium, RayStatistics& statistics) {
+        auto const light = scene.lights.light(index).sample(from, wavelengths, {0.5f, 0.5f});
+        if (!light || light->density) return {};
+        if (scene.accelerator->occluded(shadow_ray(from, light->wi, light->distance), statistics)) return {};
+        return medium.transmittance(light->distance, wavelengths) * light->radiance * phase.density(light->wi).value;
     }
 
     static Radiance dirac_light(Scene const& scene, int index, Hit const& hit, Interaction const& here,
@@ -80,6 +110,7 @@ class ReferencePath final : public Integrator {
     }
 
     int max_bounces_;
+    bool scattering_;
     std::optional<Surroundings> camera_in_;  // absent: to be found for each path
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What fills a transparent body, and the bodies around a point of a path.
-//   radiance along d metres:  L exp(-sigma_a d),   sigma_a = 4 pi k / lambda                [Born 1999, sec. 14.1]
+//   radiance along d metres:  L exp(-sigma_t d),   sigma_t = sigma_a + sigma_s,  sigma_a = 4 pi k / lambda
+//                                                                                          [Born 1999, sec. 14.1]
+// What is scattered, sigma_s, goes on in the directions of the Henyey-Greenstein phase function (materials/phase.h).
 // Of bodies that overlap the one of the highest priority fills the place, and the surfaces of the others are none
 // there; in front of a body's surface is what fills the place without that body. [Schmidt 2002]
 #pragma once
@@ -17,18 +19,29 @@
 namespace iride {
 
 using Absorption = Spectrum<dim::per_metre>;
+using Extinction = Sampled<dim::per_metre>;
 
 struct Medium {
     Index n{1.0f};
     Absorption sigma_a{};
     bool absorbs = false;
     ComplexIndex index{};  // as it was given
+    Absorption sigma_s{};
+    float asymmetry = 0;  // g: mean cosine of scattering
+    bool scatters = false;
 
+    bool attenuates() const { return absorbs || scatters; }
+    Extinction sigma_t(Wavelengths const& wavelengths) const {
+        Extinction sum;
+        if (absorbs) sum += sigma_a.at(wavelengths);
+        if (scatters) sum += sigma_s.at(wavelengths);
+        return sum;
+    }
     // Of radiance, along `distance` metres, which may be infinite.
     Throughput transmittance(float distance, Wavelengths const& wavelengths) const {
-        if (!absorbs) return Throughput(1);
+        if (!attenuates()) return Throughput(1);
         float const finite = std::min(distance, std::numeric_limits<float>::max());
-        return map(Throughput(sigma_a.at(wavelengths).lane * -finite), [](float x) { return std::exp(x); });
+        return map(Throughput(sigma_t(wavelengths).lane * -finite), [](float x) { return std::exp(x); });
     }
 };
 inline Medium const vacuum{};
@@ -46,6 +59,9 @@ struct Body {
 class Surroundings {
   public:
     static constexpr int capacity = 8;  // nested bodies; those beyond do not exist for the path
+
+    // `open`: what fills the place that no body fills.
+    explicit Surroundings(Medium const& open = vacuum) : open_(&open) {}
 
     friend bool operator==(Surroundings const&, Surroundings const&) = default;
 
@@ -86,7 +102,7 @@ class Surroundings {
     Body const* nested(int number) const {
         return number > 0 ? nested_[static_cast<std::size_t>(number) - 1] : nullptr;
     }
-    Medium const& filling(int number) const { return number > 0 ? nested(number)->inside : vacuum; }
+    Medium const& filling(int number) const { return number > 0 ? nested(number)->inside : *open_; }
     bool contains(Body const& body) const { return std::find(begin(), end(), &body) != end(); }
     void enter(Body const& body) {
         if (count_ == capacity) return;
@@ -110,6 +126,7 @@ class Surroundings {
     List nested_{};  // by rising priority; of equal ones the first entered is the last
     int count_ = 0;
     Medium const* told_ = nullptr;  // by the last interface without a priority
+    Medium const* open_;
 };
 
 }  // namespace iride

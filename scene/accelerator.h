@@ -110,9 +110,12 @@ inline Ray spawn_ray(SurfacePoint const& point, Direction const& direction) {
 }
 
 // The same towards a place `distance` away, ending just before it.
-inline Ray spawn_shadow_ray(SurfacePoint const& point, Direction const& direction, float distance) {
+inline Ray shadow_ray(Vector const& from, Direction const& direction, float distance) {
     constexpr float shortening = 1e-4f;  // relative: keeps the light's own surface out
-    return {off_surface(point, direction), direction, 0, distance * (1 - shortening)};
+    return {from, direction, 0, distance * (1 - shortening)};
+}
+inline Ray spawn_shadow_ray(SurfacePoint const& point, Direction const& direction, float distance) {
+    return shadow_ray(off_surface(point, direction), direction, distance);
 }
 
 }  // namespace iride

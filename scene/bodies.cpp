@@ -171,7 +171,7 @@ NestingSurvey survey(Scene const& scene) {
 // Whether light that leaves `inner` into `outer` goes on as it should.
 bool tells_what_is_around(Body const& inner, Body const& outer) {
     return !inner.priority && inner.outside_is_stated &&
-           (outer.priority || !outer.inside.absorbs || inner.outside.absorbs);
+           (outer.priority || !outer.inside.attenuates() || inner.outside.absorbs);
 }
 
 // What is wrong with two bodies that overlap; empty if nothing is.
@@ -187,7 +187,7 @@ std::string conflict(Body const& a, Body const& b, std::string const& other) {
 }  // namespace
 
 Surroundings surroundings_at(Scene const& scene, Vector const& point) {
-    Surroundings result;
+    Surroundings result(scene.open_medium);
     Body const* told = nullptr;
     float nearest = infinity;
     for (auto const& [material, around] : bodies_around(scene, point)) {
@@ -207,7 +207,7 @@ std::vector<Diagnostic> check_nesting(Scene const& scene, std::string const& fil
     for (std::size_t i = 0; i < scene.materials.size(); ++i)
         if (Body const* const b = scene.materials[i].material->body()) {
             bodies.push_back(static_cast<int>(i));
-            interiors = interiors || b->priority || b->inside.absorbs;
+            interiors = interiors || b->priority || b->inside.attenuates();
         }
     if (bodies.size() < 2 && !interiors) return {};
     NestingSurvey const found = survey(scene);

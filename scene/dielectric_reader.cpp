@@ -9,7 +9,8 @@ namespace iride {
 MaterialPointer read_dielectric(SceneBuilder& b, Fields& f) {
     if (f.find("coating")) return read_coated_dielectric(b, f);
     constexpr int most = 1000000;
-    auto const inside = read_medium(b, f, "ior");
+    auto inside = read_medium(b, f, "ior");
+    if (inside) read_scattering(b, f, *inside);
     bool const outside_is_stated = f.find("exterior_ior");
     auto const outside =
         outside_is_stated ? read_medium_of_index(b, f, "exterior_ior") : std::optional<Medium>(Medium{});

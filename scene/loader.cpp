@@ -15,32 +15,6 @@ namespace iride {
 
 namespace {
 
-void read_camera(SceneBuilder& b, Fields& top) {
-    JsonValue const* const value = top.require("camera");
-    if (!value) return;
-    Fields f(b.context, *value, "camera");
-    CameraSettings& c = b.scene.camera;
-    bool const orthographic = f.choice("type", {"perspective", "orthographic"}) == "orthographic";
-    c.projection = orthographic ? CameraSettings::Projection::orthographic : CameraSettings::Projection::perspective;
-    c.eye = f.required_vector("eye") * b.length_unit_m;
-    c.target = f.required_vector("target") * b.length_unit_m;
-    c.up = f.vector("up").value_or(VectorDouble(0, 1, 0));
-    VectorDouble const forward = c.target - c.eye;
-    if (forward.norm() == 0)
-        f.error("'eye' and 'target' are the same point");
-    else if (forward.normalized().cross(c.up).norm() < 1e-6)
-        f.error_at("up", "'up' is parallel to the line of sight");
-    if (orthographic) {
-        c.window = f.required_number("window", positive()) * b.length_unit_m;
-    } else {
-        c.field_deg = f.required_number("field_deg", {.least = 0, .most = 179, .least_excluded = true});
-        c.aperture_radius = f.number("aperture_radius", at_least(0)).value_or(0) * b.length_unit_m;
-        auto const focus = f.number("focus_distance", positive());
-        c.focus_distance = focus ? *focus * b.length_unit_m : forward.norm();
-    }
-    f.finish();
-}
-
 Chromaticity read_white(SceneBuilder& b, Fields& f) {
     Chromaticity white{0.3127, 0.3290};
     JsonValue const* const value = f.find("white");
@@ -88,7 +62,7 @@ void read_film(SceneBuilder& b, Fields& top) {
     double const usual = filter == "triangle" ? 1 : filter == "gaussian" ? 1.5 : 0.5;
     film.filter_radius =
         static_cast<float>(f.number("filter_radius", {.least = 0, .most = 16, .least_excluded = true}).value_or(usual));
-    film.exposure = f.number("exposure", positive()).value_or(1);
+    film.exposure = read_exposure(b, f);
     film.white = read_white(b, f);
     film.half = f.boolean("half").value_or(false);
     if (JsonValue const* const bands = f.find("bands")) {
@@ -166,6 +140,16 @@ std::string hash_files(std::vector<std::filesystem::path> const& files) {
     return fmt::format("{:016x}", hash);
 }
 
+// A medium that fills all space keeps out what comes from infinitely far.
+void remark_on_infinity(SceneBuilder& b) {
+    for (LightDescription const& light : b.scene.light_descriptions)
+        if (light.type == "environment" || light.type == "distant")
+            b.context.remark("medium", fmt::format("it has no end, and the '{}' light is infinitely far: none comes "
+                                                   "through at wavelengths where the medium takes any; a body of "
+                                                   "'ior' 1 has an end",
+                                                   light.type));
+}
+
 void read_everything(SceneBuilder& b, JsonValue const& root) {
     Fields top(b.context, root, "");
     b.scene.description = top.text("description").value_or("");
@@ -175,10 +159,12 @@ void read_everything(SceneBuilder& b, JsonValue const& root) {
     read_camera(b, top);
     read_film(b, top);
     read_render(b, top);
+    read_open_medium(b, top);
     read_materials(b, top);
     if (JsonValue const* const shapes = top.find("shapes")) read_shapes(b, *shapes, "shapes", false, b.scene.shapes);
     read_objects(b, top);
     if (JsonValue const* const lights = top.find("lights")) read_lights(b, *lights, "lights");
+    if (b.scene.open_medium.attenuates()) remark_on_infinity(b);
     top.finish();
 }
 

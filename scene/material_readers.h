@@ -33,6 +33,8 @@ inline constexpr double largest_transparent_k = 1e-3;
 
 // What fills a transparent body: the index under `key`, its k and the keys "absorption", "absorption_per_m".
 std::optional<Medium> read_medium(SceneBuilder& builder, Fields& fields, std::string const& key);
+// How it scatters: the keys "scattering_per_m" and "asymmetry". The coefficient [1/m], if there is one.
+std::optional<SpectralFunction> read_scattering(SceneBuilder& builder, Fields& fields, Medium& medium);
 // The same of the index alone.
 std::optional<Medium> read_medium_of_index(SceneBuilder& builder, Fields& fields, std::string const& key);
 

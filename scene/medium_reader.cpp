@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What fills a transparent body, as a scene file gives it: an index, and how it absorbs. All that absorbs is added up:
 //   sigma_a = 4 pi k / lambda - ln(transmittance) / distance + absorption_per_m        [1/m]
+// and what it scatters, in a body or all around.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -53,6 +54,36 @@ bool is_transparent(SceneBuilder& b, Fields& f, std::string const& key, ComplexI
     return false;
 }
 
+// Whether what is stated lets as much light through as a transparent body must.
+bool is_weak(SceneBuilder& b, Fields& f, Coefficient const& stated) {
+    double strongest = 0, at_nm = 0;
+    WavelengthRange const range = b.scene.wavelengths;
+    for (double nm = range.min_nm; nm <= range.max_nm; ++nm)
+        if (double const k = k_of(stated(nm), nm); !(k <= strongest)) strongest = k, at_nm = nm;
+    if (strongest <= largest_transparent_k) return true;
+    f.error_at(f.find("absorption") ? "absorption" : "absorption_per_m",
+               fmt::format("found {:g} 1/m at {} nm, as much as k = {:g}, allowed for a transparent body: k of 0 "
+                           ".. {}; a metal is a 'conductor'",
+                           stated(at_nm), at_nm, strongest, largest_transparent_k));
+    return false;
+}
+
+// In a medium without end a path is over when it is absorbed, and those of longest_path are dropped.
+void refuse_endless_paths(SceneBuilder& b, Fields& f, Coefficient const& absorption, SpectralFunction const& sigma_s) {
+    constexpr double largest_albedo = 0.998;  // of 10000 scatterings a share of 2e-9 survives
+    if (b.scene.render.max_bounces) return;
+    WavelengthRange const range = b.scene.wavelengths;
+    for (double nm = range.min_nm; nm <= range.max_nm; ++nm) {
+        double const s = sigma_s.at(nm), albedo = s > 0 ? s / (s + absorption(nm)) : 0;
+        if (albedo <= largest_albedo) continue;
+        return f.error(
+            fmt::format("it fills all space and absorbs {:.3g} of what it takes out of a ray at {} nm: its "
+                        "light would be scattered without end; allowed: {:g} or more by absorption, a "
+                        "render.max_bounces, or a body that ends",
+                        1 - albedo, nm, 1 - largest_albedo));
+    }
+}
+
 Medium medium_of(SceneBuilder& b, ComplexIndex const& index, Coefficient const& stated) {
     TabulatedShape sigma_a;
     for (int i = 0; i < b.scene.grid.count; ++i) {
@@ -79,19 +110,35 @@ std::optional<Medium> read_medium_of_index(SceneBuilder& b, Fields& f, std::stri
 std::optional<Medium> read_medium(SceneBuilder& b, Fields& f, std::string const& key) {
     auto const index = read_complex_index(b, f, key);
     auto const stated = read_stated_absorption(b, f);
-    if (!index || !stated || !is_transparent(b, f, key, *index)) return std::nullopt;
-    double strongest = 0, at_nm = 0;
-    WavelengthRange const range = b.scene.wavelengths;
-    for (double nm = range.min_nm; nm <= range.max_nm; ++nm)
-        if (double const k = k_of((*stated)(nm), nm); !(k <= strongest)) strongest = k, at_nm = nm;
-    if (!(strongest <= largest_transparent_k)) {
-        f.error_at(f.find("absorption") ? "absorption" : "absorption_per_m",
-                   fmt::format("found {:g} 1/m at {} nm, as much as k = {:g}, allowed for a transparent body: k of 0 "
-                               ".. {}; a metal is a 'conductor'",
-                               (*stated)(at_nm), at_nm, strongest, largest_transparent_k));
+    if (!index || !stated || !is_transparent(b, f, key, *index) || !is_weak(b, f, *stated)) return std::nullopt;
+    return medium_of(b, *index, *stated);
+}
+
+std::optional<SpectralFunction> read_scattering(SceneBuilder& b, Fields& f, Medium& medium) {
+    constexpr double steepest = 0.999;  // beyond, lobes are narrower than floats tell directions apart
+    auto const g = f.number("asymmetry", between(-steepest, steepest));
+    if (!f.find("scattering_per_m")) {
+        if (g) f.error_at("asymmetry", "nothing scatters here without 'scattering_per_m'");
         return std::nullopt;
     }
-    return medium_of(b, *index, *stated);
+    auto const sigma_s = read_spectrum(b, f, "scattering_per_m", absorption_kind);
+    if (!sigma_s) return std::nullopt;
+    medium.scatters = sigma_s->largest(b.scene.wavelengths) > 0;
+    if (medium.scatters) medium.sigma_s = Absorption(*sigma_s, b.scene.grid);
+    medium.asymmetry = static_cast<float>(g.value_or(0));
+    return sigma_s;
+}
+
+void read_open_medium(SceneBuilder& b, Fields& top) {
+    JsonValue const* const value = top.find("medium");
+    if (!value) return;
+    Fields f(b.context, *value, "medium");
+    auto const stated = read_stated_absorption(b, f);
+    if (stated && is_weak(b, f, *stated)) {
+        Medium& medium = b.scene.open_medium = medium_of(b, {}, *stated);
+        if (auto const sigma_s = read_scattering(b, f, medium)) refuse_endless_paths(b, f, *stated, *sigma_s);
+    }
+    f.finish();
 }
 
 }  // namespace iride

@@ -31,6 +31,14 @@ struct SceneBuilder {
     TextureCache textures{};
 };
 
+// ---- cameras (camera_reader.cpp)
+void read_camera(SceneBuilder& builder, Fields& top);
+// The factor on XYZ: the film's "exposure", or that of its "photograph"; 1 without either.
+double read_exposure(SceneBuilder& builder, Fields& film);
+
+// ---- what fills the place that no body fills (medium_reader.cpp): the key "medium"
+void read_open_medium(SceneBuilder& builder, Fields& top);
+
 // ---- spectra (spectrum_reader.cpp)
 struct SpectrumKind {
     SpectralQuantity quantity;

@@ -11,6 +11,7 @@
 #include "base/diagnostics.h"
 #include "base/sampler.h"
 #include "colour/xyz.h"
+#include "materials/medium.h"
 #include "scene/accelerator.h"
 #include "scene/camera.h"
 #include "scene/light.h"
@@ -66,6 +67,7 @@ struct Scene {
     FilmSettings film;
     RenderDefaults render;
     std::vector<NamedMaterial> materials;
+    Medium open_medium;  // fills the place that no body fills
     std::vector<Shape> shapes;
     std::vector<ObjectGeometry> objects;
     std::vector<InstancePlacement> instances;

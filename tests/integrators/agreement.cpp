@@ -194,3 +194,19 @@ TEST_CASE("both integrators find 2 in the uniform cube", "[law]") {
         }
     }
 }
+
+// The same of what is scattered on the way, by lanes of unlike extinction: lamps sampled and met in the haze, a point
+// without extent, dispersive milk with the haze around it.
+TEST_CASE("path and its reference agree: coloured haze and a milky ball", "[law]") {
+    check_agreement(
+        "haze",
+        scene_text(
+            view,
+            R"("medium": { "scattering_per_m": { "pairs": [[360, 0.5], [830, 0.02]] }, "absorption_per_m": { "pairs": [[360, 0.01], [830, 0.1]] }, "asymmetry": 0.5 },
+               "lights": [ { "type": "point", "position": [-1,1.5,-1], "intensity": 0.4 } ],
+               "shapes": [)" +
+                floor_quad + "," + lamp + "," +
+                sphere(
+                    R"({ "type": "dielectric", "ior": { "pairs": [[300, 1.6], [900, 1.3]] }, "scattering_per_m": { "pairs": [[360, 0.1], [830, 5]] }, "absorption_per_m": 0.2, "asymmetry": -0.2 })") +
+                "]"));
+}

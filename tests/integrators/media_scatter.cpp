@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+// Media that scatter, rendered from scene files, against what must hold whatever they are and against integrals that
+// are worked out another way.
+#include <catch2/catch.hpp>
+
+#include "support/transparent_scenes.h"
+
+using namespace iride;
+
+namespace {
+
+// Looks along z from -3; what is there is told by the rest.
+std::string looking(std::string const& rest, std::string const& render = "") {
+    return fmt::format(
+        R"({{ "camera": {{ "type": "orthographic", "eye": [0,0,-3], "target": [0,0,0], "window": 1e-3 }},
+             "film": {{ "size": [4,4] }}, "render": {{ "sampler": "independent"{} }}, {} }})",
+        render, rest);
+}
+std::string const wall =
+    R"({ "type": "quad", "corners": [[-400,-400,5],[-400,400,5],[400,400,5],[400,-400,5]], "material": { "type": "black" }, "emission": { "radiance": 1 } })";
+std::string const hundredfold = R"({ "pairs": [[360, 0.02], [830, 2]] })";
+
+void check_colour(Xyz const& found, Xyz const& wanted, Xyz const& error, double bias) {
+    constexpr double level = 4;  // standard errors: 6e-5, two-sided
+    CHECK(found.X == Approx(wanted.X).margin(level * error.X + bias).epsilon(0));
+    CHECK(found.Y == Approx(wanted.Y).margin(level * error.Y + bias).epsilon(0));
+    CHECK(found.Z == Approx(wanted.Z).margin(level * error.Z + bias).epsilon(0));
+}
+
+}  // namespace
+
+// Without scattered light (no bounce) 8 m leave exp(-(sigma_a + sigma_s) 8).
+TEST_CASE("what comes straight through haze is what it neither absorbs nor scatters", "[law]") {
+    auto const scene = test::scene_from(looking(
+        R"("medium": { "absorption_per_m": 0.03, "scattering_per_m": { "pairs": [[360, 0.005], [830, 0.5]] } }, "shapes": [)" +
+            wall + "]",
+        R"(, "max_bounces": 0)"));
+    Xyz const wanted = test::colour_of([](double nm) { return std::exp(-8 * (.03 + .005 + (nm - 360) / 470 * .495)); });
+    for (char const* integrator : {"path", "reference_path"}) {
+        auto const [mean, error] = test::measured(test::rendered(*scene, integrator, {.spp = 1 << 13, .seed = 4}));
+        INFO(integrator);
+        check_colour(mean, wanted, error, 1e-5);
+        CHECK(error.Y < .01 * wanted.Y);
+    }
+}
+
+namespace {
+
+// A ball without a boundary of its own, in an evenly bright sky.
+std::string cloud(std::string const& sigma_s, double g) {
+    return fmt::format(
+        R"("shapes": [ {{ "type": "sphere", "centre": [0,0,0], "radius": 1, "material": {{ "type": "dielectric", "ior": 1, "scattering_per_m": {}, "asymmetry": {} }} }} ],
+           "lights": [ {{ "type": "environment", "radiance": 1 }} ])",
+        sigma_s, g);
+}
+
+// The largest Y that a packet can bring of a radiance whose lanes are 1 in the mean: all of it in one lane, where
+// ybar / p is largest.
+double largest_sample(Scene const& scene) {
+    WavelengthSampler const sampler = make_wavelength_sampler(scene, make_plan(scene));
+    Observer const& eye = cie1931_2deg();
+    double most = 0;
+    for (int i = 0; i < 4096; ++i) {
+        Wavelengths const w = sampler.sample((static_cast<float>(i) + .5f) / 4096);
+        for (int k = 0; k < lane_count; ++k)
+            most = std::max(most, eye.at(static_cast<double>(w.nm[k])).Y / static_cast<double>(w.density[k]));
+    }
+    return most / eye.ybar_integral;
+}
+
+}  // namespace
+
+// With albedo 1 a packet's lanes are 1 in the mean, whatever their extinctions: no sample is above M, of mean 1, so the
+// variance of a sample is at most M - 1.
+TEST_CASE("a cloud that absorbs nothing disappears in a furnace, and no sample is a firefly", "[law]") {
+    for (auto const& [sigma_s, g] : {std::pair(std::string("3"), 0.), {hundredfold, .8}, {hundredfold, -.5}}) {
+        auto const scene = test::scene_from(looking(cloud(sigma_s, g)));
+        double const M = largest_sample(*scene);
+        for (char const* integrator : {"path", "reference_path"}) {
+            Film const film = test::rendered(*scene, integrator, {.spp = 1 << 11, .seed = 5});
+            auto const [mean, error] = test::measured(film);
+            INFO(integrator << " g " << g << " M " << M);
+            CHECK(film.rejected() == std::array<std::uint64_t, rejection_count>{});
+            check_colour(mean, {1, 1, 1}, error, 1e-4);
+            for (int i = 0; i < 16; ++i) CHECK(film.variance(i % 4, i / 4).Y * (1 << 11) < M - 1);
+        }
+    }
+}
+
+// In a closed room whose walls emit 1 and reflect half, radiance is 2 everywhere, with or without haze: lamps are
+// sampled at walls and in the haze.
+TEST_CASE("haze that absorbs nothing does not change an even room", "[law]") {
+    auto const scene =
+        test::scene_from(looking(R"("medium": { "scattering_per_m": )" + hundredfold + R"(, "asymmetry": 0.4 },
+           "shapes": [ { "type": "box", "min": [-2,-2,-4], "max": [2,2,3], "flip": true, "material": { "type": "diffuse", "reflectance": 0.5 }, "emission": { "radiance": 1 } } ])",
+                                 R"(, "max_bounces": 9000)"));
+    for (char const* integrator : {"path", "reference_path"}) {
+        auto const [mean, error] = test::measured(test::rendered(*scene, integrator, {.spp = 1 << 12, .seed = 7}));
+        INFO(integrator);
+        check_colour(mean, {2, 2, 2}, error, 2e-4);
+        CHECK(error.Y < .01);
+    }
+}
+
+// Light that is scattered once, from a lamp of intensity I at the distance h beside the ray, at z = 0, along the ray
+// from -3 to a black wall at 5: L = int sigma_s p(angle) I / r^2 exp(-sigma_t (z + 3 + r)) dz.
+TEST_CASE("the air glows beside a lamp as the integral along the ray says", "[law]") {
+    double const h = .7, I = 4, sigma_s = .11, sigma_t = .11 + .05;
+    for (double const g : {0., .6, -.4}) {
+        auto const scene = test::scene_from(
+            looking(fmt::format(
+                        R"("medium": {{ "scattering_per_m": {}, "absorption_per_m": 0.05, "asymmetry": {} }},
+                   "shapes": [ {{ "type": "quad", "corners": [[-40,-40,5],[-40,40,5],[40,40,5],[40,-40,5]], "material": {{ "type": "black" }} }} ],
+                   "lights": [ {{ "type": "point", "position": [0,{},0], "intensity": {} }} ])",
+                        sigma_s, g, h, I),
+                    R"(, "max_bounces": 1)"));
+        double wanted = 0;
+        constexpr int steps = 100000;
+        for (int i = 0; i < steps; ++i) {
+            double const z = -3 + 8 * (i + .5) / steps, r = std::hypot(h, z);
+            // Light travels from the lamp to z, then to -z.
+            double const cosine = -z / r;
+            double const phase = (1 - g * g) / (4 * pi_double) / std::pow(1 + g * g - 2 * g * cosine, 1.5);
+            wanted += 8. / steps * sigma_s * phase * I / (r * r) * std::exp(-sigma_t * (z + 3 + r));
+        }
+        for (char const* integrator : {"path", "reference_path"}) {
+            auto const [mean, error] = test::measured(test::rendered(*scene, integrator, {.spp = 1 << 13, .seed = 9}));
+            INFO(integrator << " g " << g);
+            check_colour(mean, {wanted, wanted, wanted}, error, 1e-5);
+            CHECK(error.Y < .02 * wanted);
+        }
+    }
+}
+
+namespace {
+
+double E1(double x) { return -std::expint(-x); }
+double E2(double x) { return std::exp(-x) - x * E1(x); }
+
+// A slab of optical thickness b and albedo a that scatters evenly, under even light of radiance 1 from the side t = 0:
+//   S(t) = a / 2 (E_2(t) + int_0^b E_1(|t - s|) S(s) ds)
+// by midpoints, the singular kernel integrated exactly over each cell: int E_1 = -E_2. Radiance along the normal.
+struct Slab {
+    double reflected = 0, transmitted = 0;
+    Slab(double a, double b, int cells) {
+        double const w = b / cells;
+        Eigen::MatrixXd K(cells, cells);
+        Eigen::VectorXd lit(cells);
+        auto const below = [](double x) { return x > 0 ? 1 - E2(x) : x < 0 ? E2(-x) - 1 : 0; };  // int_0^x E_1(|s|) ds
+        for (int i = 0; i < cells; ++i) {
+            double const t = (i + .5) * w;
+            lit[i] = a / 2 * E2(t);
+            for (int j = 0; j < cells; ++j) K(i, j) = a / 2 * (below((j + 1) * w - t) - below(j * w - t));
+        }
+        Eigen::VectorXd const S = (Eigen::MatrixXd::Identity(cells, cells) - K).partialPivLu().solve(lit);
+        transmitted = std::exp(-b);
+        for (int i = 0; i < cells; ++i) {
+            double const from = std::exp(-i * w), to = std::exp(-(i + 1) * w);
+            reflected += S[i] * (from - to);
+            transmitted += S[i] * (std::exp(-(b - (i + 1) * w)) - std::exp(-(b - i * w)));
+        }
+    }
+};
+
+}  // namespace
+
+// The wall behind the slab is the light. From the other side it is seen in the light that comes back.
+TEST_CASE("a milky slab reflects and transmits what its integral equation says", "[law]") {
+    Slab const even(1, 2, 400);
+    CHECK(even.reflected + even.transmitted == Approx(1).margin(1e-4));  // light is conserved
+    for (auto const& [albedo, thickness] : {std::pair(1., 1.), {.8, 2.}, {.95, 4.}}) {
+        Slab const slab(albedo, thickness, 400);
+        for (bool const behind : {true, false}) {
+            // Between 0 and 2; looked at from the lit side the camera is close, with the wall behind it.
+            auto const scene = test::scene_from(fmt::format(
+                R"({{ "camera": {{ "type": "orthographic", "eye": [0,0,{}], "target": [0,0,1], "window": 1e-3 }},
+                     "film": {{ "size": [4,4] }}, "render": {{ "sampler": "independent" }},
+                     "materials": {{ "milk": {{ "type": "dielectric", "ior": 1, "scattering_per_m": {}, "absorption_per_m": {} }} }},
+                     "shapes": [ {}, {} ] }})",
+                behind ? -3 : 4, albedo * thickness / 2, (1 - albedo) * thickness / 2, wall,
+                test::wide_box("milk", 0, 2)));
+            auto const [mean, error] = test::measured(test::rendered(*scene, "path", {.spp = 1 << 13, .seed = 10}));
+            double const wanted = behind ? slab.transmitted : slab.reflected;
+            INFO("albedo " << albedo << " thickness " << thickness << (behind ? " through" : " back"));
+            check_colour(mean, {wanted, wanted, wanted}, error, 3e-4);  // of the light's and slab's ends
+            CHECK(error.Y < .01 * wanted);
+        }
+    }
+}
