@@ -5,6 +5,8 @@
 //   rho) A) b' - b'^2
 #include <catch2/catch.hpp>
 
+#include <fmt/format.h>
+
 #include "integrators/radiosity/radiosity.h"
 #include "support/scenes.h"
 

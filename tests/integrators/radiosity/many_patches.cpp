@@ -2,6 +2,8 @@
 // Links between groups of patches against a line for every pair, and what is said of scenes that are no diffuse rooms.
 #include <catch2/catch.hpp>
 
+#include <fmt/format.h>
+
 #include "integrators/radiosity/radiosity.h"
 #include "integrators/radiosity/solution_file.h"
 #include "support/scenes.h"
