@@ -129,6 +129,7 @@ void scales_and_distances(Stress& s) {
         VectorDouble const at(away, -away, 0.7 * away);
         std::string const name = fmt::format("{:g} sizes away", away);
         s.expect_everywhere("glowing box " + name, s.render_text(name, glowing_box(1, at)), 2);
+        // Fails: a point within its own rounding of an edge may lie beyond the wall that meets it there.
         s.expect_black("closed box " + name, s.render_text(name, closed_box(1, at)));
     }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numerical stability: what is asked of the renderer, with what was found. The short form is a test of the suite, the
+// Numerical stability: what is asked of the renderer, with what was found. The short form is a hidden test, the
 // long one `iride bench stress`.
 #pragma once
 
