@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which objects a pixel shows, and how much of each: Cryptomatte layers. [Friedman 2015] [Cryptomatte 2021,
-// specification 1.2] An id is the 32-bit MurmurHash3 of a name, as a float whose exponent is kept from denormals,
+// Which objects a pixel shows, and how much of each: Cryptomatte layers [Friedman 2015],
+// specification 1.2. An id is the 32-bit MurmurHash3 of a name, as a float whose exponent is kept from denormals,
 // infinities and NaN; a pixel has its ids in the order of their coverage, two in each layer's R G B A: id, coverage,
 // id, coverage.
 #pragma once

@@ -10,8 +10,9 @@
 // Nothing is missed: every pixel has the floor, which grows from round to round, and its noise there and around it (5 x
 // 5 pixels) asks for more. The floor's first 16 samples have one in each 1/4 x 1/4 of the pixel: what is half a pixel
 // wide is seen from the start, in both halves. At most 16 times the floor is given at a time.
-//   relative error:  n = s mean(s) / (2 t^2), s the noise of one sample: the least samples for a mean square [Neyman
-//   1934] de:              n = (s z / t)^2 / 2, z = 2.576: 1 % of pixels beyond
+//   relative error:  n = s mean(s) / (2 t^2), s the noise of one sample: the least samples for a mean square
+//                    [Neyman 1934]
+//   de:              n = (s z / t)^2 / 2, z = 2.576: 1 % of pixels beyond
 #pragma once
 
 #include "film/error_target.h"

@@ -4,8 +4,8 @@
 //   G max(rho_r b_s, rho_s b_r) err <= tolerance P,   err = (R_r + R_s) / d, or 1 where a shadow's edge lies between,
 // else the larger is split, down to single patches. G = A_r F_rs: the kernel at pairs of points, or for near patches
 // Lambert's contour sum, times the share of free lines; b as if all surfaces shared the reflected light, P the power
-// emitted. Factors are scaled in pairs until rows sum to the share of light that does not leave the scene. [Hanrahan
-// 1991]
+// emitted. Factors are scaled in pairs until rows sum to the share of light that does not leave the scene.
+// [Hanrahan 1991]
 #pragma once
 
 #include <vector>

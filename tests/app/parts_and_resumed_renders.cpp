@@ -15,9 +15,10 @@ namespace {
 struct Work {
     test::TemporaryFolder folder;
     std::string operator()(std::string const& name) const { return (folder.path() / name).string(); }
-    // Of cornell, 48 x 40 pixels.
-    test::RunResult render(std::string const& options, std::string const& exr) const {
-        return test::run_iride("render cornell --size 48x40 --quiet " + options + " -o " + (*this)(exr));
+    // Of cornell.
+    test::RunResult render(std::string const& options, std::string const& exr,
+                           std::string const& size = "48x40") const {
+        return test::run_iride("render cornell --size " + size + " --quiet " + options + " -o " + (*this)(exr));
     }
 };
 
@@ -56,15 +57,14 @@ TEST_CASE("a checkpoint of another render is refused", "[input]") {
     REQUIRE(at.render("--spp 4 --seed 1 --checkpoint " + at("c"), "a.exr").code == 0);
     std::string const before = test::content(at("c"));
     struct Case {
-        char const *options, *message;
+        char const *options, *message, *size = "48x40";
     };
-    for (Case const& c :
-         {Case{"--seed 2", "seed is 1, here 2"}, Case{"--seed 1 --size 49x40", "size is 48 40, here 49 40"},
-          Case{"--seed 1 --integrator reference_path", "integrator is path, here reference_path"},
-          Case{"--seed 1 --crop 0,0,8,8", "crop is 0 0 48 40, here 0 0 8 8"},
-          Case{"--seed 1 --first-sample 3", "first sample is 0, here 3"},
-          Case{"--seed 1 --adaptive --time 1", "films is 1, here 4"}}) {
-        auto const r = at.render(std::string(c.options) + " --checkpoint " + at("c"), "b.exr");
+    for (Case const& c : {Case{"--seed 2", "seed is 1, here 2"}, Case{"--seed 1", "size is 48 40, here 49 40", "49x40"},
+                          Case{"--seed 1 --integrator reference_path", "integrator is path, here reference_path"},
+                          Case{"--seed 1 --crop 0,0,8,8", "crop is 0 0 48 40, here 0 0 8 8"},
+                          Case{"--seed 1 --first-sample 3", "first sample is 0, here 3"},
+                          Case{"--seed 1 --adaptive --time 1", "films is 1, here 4"}}) {
+        auto const r = at.render(std::string(c.options) + " --checkpoint " + at("c"), "b.exr", c.size);
         INFO(c.options);
         CHECK(r.code == 2);
         CHECK_THAT(r.text, Contains(c.message));
@@ -167,7 +167,7 @@ TEST_CASE("parts merged are the picture that was made at once", "[app]") {
     };
     refused(at("first") + " " + at("first"), "both have the same samples of some pixels");
     refused(at("first") + " " + at("left"), "both have the same samples of some pixels");
-    REQUIRE(at.render("--spp 4 --size 20x20 --checkpoint " + at("small"), "p.exr").code == 0);
+    REQUIRE(at.render("--spp 4 --checkpoint " + at("small"), "p.exr", "20x20").code == 0);
     refused(at("first") + " " + at("small"), "size is 48 40, here 20 20");
     REQUIRE(test::run_iride("render metals --quiet --spp 4 --size 48x40 --checkpoint " + at("metals") + " -o " +
                             at("p.exr"))
