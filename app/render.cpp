@@ -22,7 +22,7 @@ namespace iride {
 namespace {
 
 struct Options {
-    std::string scene, output, integrator, size, colourspace = "ACEScg", view, ocio, preview, report;
+    std::string scene, output, integrator, size, colourspace = "ACEScg", view, ocio, preview, report, sampler;
     int spp = 0, threads = 0;
     double seconds = 0, error = 0;
     std::int64_t seed = -1;
@@ -100,7 +100,7 @@ RenderSettings settings_of(Options const& o, Scene const& scene) {
     if (o.seconds > 0) s.seconds = o.seconds;
     if (o.error > 0) s.relative_error = o.error;
     s.seed = o.seed >= 0 ? static_cast<std::uint64_t>(o.seed) : scene.render.seed;
-    s.sampler = scene.render.sampler;
+    s.sampler = o.sampler.empty() ? scene.render.sampler : *sampler_of(o.sampler);
     s.threads = o.threads;
     s.interrupted = &interrupted;
     return s;
@@ -203,6 +203,8 @@ Command add_render(CLI::App& app) {
     spp->excludes(seconds)->excludes(error);
     seconds->excludes(error);
     parser->add_option("--seed", o->seed, "seed of the random numbers")->check(CLI::NonNegativeNumber);
+    parser->add_option("--sampler", o->sampler, "random numbers: sobol (Owen-scrambled), stratified or independent")
+        ->check(CLI::IsMember(std::vector<std::string>(sampler_names.begin(), sampler_names.end())));
     parser->add_option("--threads", o->threads, "threads (default: all)")->check(CLI::Range(1, 1024));
     parser->add_option("--size", o->size, "WIDTHxHEIGHT in pixels, instead of the scene's");
     parser

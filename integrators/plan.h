@@ -19,6 +19,7 @@ struct RenderPlan {
     bool bands = false;
     bool ray_cones = false;  // a texture is averaged over what a path stands for
     std::optional<int> max_bounces;
+    LightSelection light_selection = LightSelection::power;
     std::optional<Surroundings> camera_in;  // absent: not the same for all camera rays
 
     struct Decision {

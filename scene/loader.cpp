@@ -129,7 +129,11 @@ void read_render(SceneBuilder& b, Fields& top) {
     r.integrator = read_integrator(b, f).value_or(r.integrator);
     r.spp = f.integer("spp", 1, 1 << 24).value_or(r.spp);
     if (auto const seed = f.number("seed", between(0, 0x1p53))) r.seed = static_cast<std::uint64_t>(*seed);
-    if (f.choice("sampler", {"sobol", "independent"}) == "independent") r.sampler = SamplerKind::independent;
+    std::vector<std::string> const samplers(sampler_names.begin(), sampler_names.end());
+    if (auto const sampler = f.choice("sampler", samplers)) r.sampler = *sampler_of(*sampler);
+    std::vector<std::string> const selections(light_selection_names.begin(), light_selection_names.end());
+    if (auto const selection = f.choice("light_selection", selections))
+        r.light_selection = static_cast<LightSelection>(std::ranges::find(selections, *selection) - selections.begin());
     r.max_bounces = f.integer("max_bounces", 0, 1 << 20);
     f.finish();
 }

@@ -14,7 +14,7 @@
 #include "scene/accelerator.h"
 #include "scene/camera.h"
 #include "scene/integrator_choice.h"
-#include "scene/light.h"
+#include "scene/light_selection.h"
 
 namespace iride {
 
@@ -37,6 +37,7 @@ struct RenderDefaults {
     std::uint64_t seed = 0;
     SamplerKind sampler = SamplerKind::sobol;
     std::optional<int> max_bounces;
+    std::optional<LightSelection> light_selection{};  // absent: the plan decides
 };
 
 // A material with what is known of it outside the sampling loop.
