@@ -5,16 +5,26 @@
 
 #include <array>
 
+#include "integrators/ambient_occlusion.h"
 #include "integrators/path.h"
 #include "integrators/radiosity/radiosity.h"
+#include "integrators/recursive.h"
 
 namespace iride {
 
 namespace {
 
-constexpr std::array<IntegratorEntry, 3> table{{
+constexpr std::array<IntegratorEntry, 6> table{{
     {"path", "path tracing: light sampling and scattering, unbiased", make_path},
     {"reference_path", "path tracing by scattering alone: slow, the oracle of the others", make_reference_path},
+    {"direct",
+     "lamps and what they light without a stop; strategy= hemisphere, cosine, bsdf, area, solid-angle, mis; "
+     "lights= uniform, power, tree, all; samples=",
+     make_direct},
+    {"recursive", "Whitted's: chains of mirrors and glass, direct light at their ends; generations=, splits=, lights=",
+     make_recursive},
+    {"ambient-occlusion",
+     "how much of a sky each place would see; sampling= uniform, cosine; distance=", make_ambient_occlusion},
     {"radiosity", "diffuse surfaces cut into patches, solved for every wavelength: no noise",
      radiosity::make_radiosity},
 }};
