@@ -78,7 +78,8 @@ class Recursive final : public Integrator {
         if (lamps_)
             path.radiance += direct_.at({scene, hit, here, path.wavelengths, state, in}, path.sampler, statistics);
         for (int i = 0; i < splits; ++i) {
-            float const lobe = (static_cast<float>(i) + first) / static_cast<float>(splits);
+            constexpr float below_one = 0x1.fffffep-1f;  // the sum may round up
+            float const lobe = std::min((static_cast<float>(i) + first) / static_cast<float>(splits), below_one);
             auto const sample = here.bsdf.sample(here.wo, {lobe, directions[static_cast<std::size_t>(i)]});
             if (!sample || sample->density) continue;
             Direction const wi = here.frame.to_world(sample->wi);
