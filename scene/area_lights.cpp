@@ -28,6 +28,18 @@ class AreaLight : public Light {
     }
 
   protected:
+    // `projected`: the largest area seen from anywhere.
+    LightBounds bounds_of(VectorDouble const& lower, VectorDouble const& upper, VectorDouble const& axis,
+                          double normals_rad, double projected) const {
+        return {lower,
+                upper,
+                flipped_ ? VectorDouble(-axis) : axis,
+                normals_rad,
+                std::acos(static_cast<double>(strength_.emitter.profile.cosine_end)),
+                strength_.emitter.two_sided,
+                projected * strength_.luminance};
+    }
+
     int sides() const { return strength_.emitter.two_sided ? 2 : 1; }
 
     // Whether a point of outward normal n may shine along -d.
@@ -81,11 +93,7 @@ class SphereLight final : public AreaLight {
           sphere_(sphere) {}
 
     std::optional<LightSample> sample(Vector const& from, Wavelengths const& wavelengths, Sample2 u) const override {
-        if (!outside(from)) {
-            Direction const n = to_sphere(u);
-            Vector const point = sphere_.centre + sphere_.radius * n;
-            return towards(from, point, n, wavelengths, area_density(static_cast<float>(area_), from, point, n));
-        }
+        if (!outside(from)) return sample_by_area(from, wavelengths, u);
         Vector const d = sphere_.centre - from;
         float const distance = d.norm(), height = cone_height(from);
         Direction const wi = Frame::around(d / distance).to_world(to_cone(u, height));
@@ -98,6 +106,18 @@ class SphereLight final : public AreaLight {
         if (s == 0) return std::nullopt;
         return std::optional<LightSample>(std::in_place, wi, (point - from).norm(),
                                           strength_.emitter.radiance.at(wavelengths) * s, cone_density(height));
+    }
+    std::optional<LightSample> sample_by_area(Vector const& from, Wavelengths const& wavelengths,
+                                              Sample2 u) const override {
+        Direction const n = to_sphere(u);
+        Vector const point = sphere_.centre + sphere_.radius * n;
+        return towards(from, point, n, wavelengths, area_density(static_cast<float>(area_), from, point, n));
+    }
+    std::optional<LightBounds> bounds() const override {
+        VectorDouble const centre = sphere_.centre.cast<double>();
+        double const r = static_cast<double>(sphere_.radius);
+        VectorDouble const reach = VectorDouble::Constant(r);
+        return bounds_of(centre - reach, centre + reach, {0, 0, 1}, pi_double, pi_double * square(r));
     }
     PerSteradian density(Vector const& from, SurfacePoint const& on, std::uint32_t) const override {
         if (outside(from)) return cone_density(cone_height(from));
@@ -137,6 +157,20 @@ class RectangleLight final : public AreaLight {
         SphericalRectangle<float> const seen(rectangle_, {from.x(), from.y(), from.z()});
         if (seen.solid_angle() > smallest_solid_angle) return PerSteradian(1 / seen.solid_angle());
         return area_density(static_cast<float>(area_), from, on.position, rectangle_.normal);
+    }
+
+    std::optional<LightSample> sample_by_area(Vector const& from, Wavelengths const& wavelengths,
+                                              Sample2 u) const override {
+        LightRequest request{from, u, &wavelengths};
+        if (shines(rectangle_.corner - from, rectangle_.normal)) sample_area(request);
+        return request.sample;
+    }
+    std::optional<LightBounds> bounds() const override {
+        VectorDouble const a = rectangle_.corner.cast<double>(), x = (rectangle_.width * rectangle_.x).cast<double>(),
+                           y = (rectangle_.height * rectangle_.y).cast<double>();
+        VectorDouble const zero(0, 0, 0);
+        return bounds_of(a + x.cwiseMin(zero) + y.cwiseMin(zero), a + x.cwiseMax(zero) + y.cwiseMax(zero),
+                         rectangle_.normal.cast<double>(), 0, area_);
     }
 
   private:
@@ -188,7 +222,7 @@ class TrianglesLight final : public AreaLight {
         auto const choice = by_area_.sample(u.x);
         Triangle const& t = triangles_[static_cast<std::size_t>(choice.index)];
         Sample2 const v{choice.rest, u.y};
-        Direction const n = (t[1] - t[0]).cross(t[2] - t[0]).normalized();
+        Direction const n = normal_of(t);
         Vector point;
         if (solid_angle(t, from) > smallest_solid_angle) {
             Direction const wi = sample_spherical_triangle((t[0] - from).normalized(), (t[1] - from).normalized(),
@@ -206,7 +240,35 @@ class TrianglesLight final : public AreaLight {
                by_area_.probability(static_cast<int>(i));
     }
 
+    std::optional<LightSample> sample_by_area(Vector const& from, Wavelengths const& wavelengths,
+                                              Sample2 u) const override {
+        auto const choice = by_area_.sample(u.x);
+        Triangle const& t = triangles_[static_cast<std::size_t>(choice.index)];
+        Direction const n = normal_of(t);
+        Vector2 const b = to_triangle({choice.rest, u.y});
+        Vector const point = t[0] + b.x() * (t[1] - t[0]) + b.y() * (t[2] - t[0]);
+        return towards(from, point, n, wavelengths, area_density(static_cast<float>(area_), from, point, n));
+    }
+    // Around the mean normal; of a closed mesh a quarter of the area is seen.
+    std::optional<LightBounds> bounds() const override {
+        VectorDouble lower = triangles_[0][0].cast<double>(), upper = lower, sum(0, 0, 0);
+        for (Triangle const& t : triangles_) {
+            sum += area(t) * normal_of(t).cast<double>();
+            for (Vector const& p : t)
+                lower = lower.cwiseMin(p.cast<double>()), upper = upper.cwiseMax(p.cast<double>());
+        }
+        bool const closed = !(sum.norm() > 1e-6 * area_);  // no mean to speak of
+        VectorDouble const axis = closed ? VectorDouble(0, 0, 1) : VectorDouble(sum.normalized());
+        double widest = closed ? pi_double : 0;
+        for (Triangle const& t : triangles_) {
+            VectorDouble const n = normal_of(t).cast<double>();
+            if (area(t) > 0) widest = std::max(widest, std::atan2(axis.cross(n).norm(), axis.dot(n)));
+        }
+        return bounds_of(lower, upper, axis, widest, std::max(sum.norm(), area_ / 4));
+    }
+
   private:
+    static Direction normal_of(Triangle const& t) { return (t[1] - t[0]).cross(t[2] - t[0]).normalized(); }
     static double area(Triangle const& t) { return 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm(); }
     static float solid_angle(Triangle const& t, Vector const& from) {
         return triangle_solid_angle((t[0] - from).normalized(), (t[1] - from).normalized(), (t[2] - from).normalized());
@@ -240,6 +302,12 @@ class DiscLight final : public AreaLight {
         return area_density(static_cast<float>(area_), from, on.position, disc_.normal);
     }
 
+    std::optional<LightBounds> bounds() const override {
+        VectorDouble const n = disc_.normal.cast<double>(), centre = disc_.centre.cast<double>();
+        VectorDouble const reach = static_cast<double>(disc_.radius) * (1 - n.array().square()).max(0).sqrt().matrix();
+        return bounds_of(centre - reach, centre + reach, n, 0, area_);
+    }
+
   private:
     Disc disc_;
     Frame frame_;
@@ -267,6 +335,14 @@ class FrustumLight final : public AreaLight {
     }
     PerSteradian density(Vector const& from, SurfacePoint const& on, std::uint32_t) const override {
         return area_density(static_cast<float>(area_), from, on.position, on.geometric_normal);
+    }
+
+    // Seen from beside it, a side shows 1 / pi of its area.
+    std::optional<LightBounds> bounds() const override {
+        VectorDouble const a = frustum_.from.cast<double>(), b = frustum_.to.cast<double>();
+        VectorDouble const reach =
+            VectorDouble::Constant(static_cast<double>(std::max(frustum_.radius, frustum_.top_radius)));
+        return bounds_of(a.cwiseMin(b) - reach, a.cwiseMax(b) + reach, {0, 0, 1}, pi_double, area_ / pi_double);
     }
 
   private:

@@ -9,7 +9,7 @@ namespace {
 class SpotLight final : public Light {
   public:
     SpotLight(Vector const& position, SpotCone cone, Spectrum<dim::spectral_intensity> intensity, double luminance)
-        : position_(position), cone_(std::move(cone)), intensity_(std::move(intensity)) {
+        : position_(position), cone_(std::move(cone)), intensity_(std::move(intensity)), luminance_(luminance) {
         power_ = luminance * effective_solid_angle();
     }
 
@@ -24,6 +24,12 @@ class SpotLight final : public Light {
         return std::optional<LightSample>(std::in_place, wi, distance, arriving, std::nullopt);
     }
     double power(double) const override { return power_; }
+    std::optional<LightBounds> bounds() const override {
+        VectorDouble const place = position_.cast<double>();
+        double const full = std::acos(static_cast<double>(cone_.cos_full)),
+                     end = std::acos(static_cast<double>(cone_.cos_end));
+        return LightBounds{place, place, cone_.axis.cast<double>(), full, end - full, false, luminance_};
+    }
 
   private:
     // The share of the intensity that goes along d.
@@ -64,7 +70,7 @@ class SpotLight final : public Light {
     Vector position_;
     SpotCone cone_;
     Spectrum<dim::spectral_intensity> intensity_;
-    double power_;
+    double luminance_, power_;
 };
 
 class DistantLight final : public Light {

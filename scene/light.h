@@ -12,6 +12,7 @@
 #include "base/warp.h"
 #include "materials/emission.h"
 #include "materials/surface_point.h"
+#include "scene/light_bounds.h"
 #include "scene/shape.h"
 
 namespace iride {
@@ -51,6 +52,14 @@ class Light {
     // Luminous power up to a common factor, for choosing among lights; `scene_radius` in metres.
     virtual double power(double scene_radius) const = 0;
     virtual bool is_environment() const { return false; }
+
+    // What a tree of lamps wants to know; absent for what comes from infinity.
+    virtual std::optional<LightBounds> bounds() const { return std::nullopt; }
+    // sample() with points of a shape uniform over its area, to compare.
+    virtual std::optional<LightSample> sample_by_area(Vector const& from, Wavelengths const& wavelengths,
+                                                      Sample2 u) const {
+        return sample(from, wavelengths, u);
+    }
 };
 
 // Luminance-weighted strengths are measured at load: the spectra themselves stay as they are.

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <catch2/catch.hpp>
 
+#include "support/agreement.h"
 #include "support/scenes.h"
-#include "support/statistics.h"
 
 using namespace iride;
 
@@ -27,25 +27,6 @@ std::string sphere(std::string const& material) {
     return fmt::format(R"({{ "type": "sphere", "centre": [0,0.7,0], "radius": 0.7, "material": {} }})", material);
 }
 
-struct Moments {
-    double mean = 0, variance = 0;
-};
-
-// Mean of all pixels' X, Y and Z, and the variance of that mean.
-std::array<Moments, 3> picture_mean(Film const& film) {
-    std::array<Moments, 3> m{};
-    double const n = film.width() * film.height();
-    for (int y = 0; y < film.height(); ++y)
-        for (int x = 0; x < film.width(); ++x) {
-            Xyz const a = film.mean(x, y), v = film.variance(x, y);
-            for (auto [k, value, var] : {std::tuple(0, a.X, v.X), {1, a.Y, v.Y}, {2, a.Z, v.Z}}) {
-                m[static_cast<std::size_t>(k)].mean += value / n;
-                m[static_cast<std::size_t>(k)].variance += var / (n * n);
-            }
-        }
-    return m;
-}
-
 void check_agreement(std::string const& name, std::string const& text) {
     auto const scene = test::scene_from(text);
     RenderSettings settings{.spp = 3000, .seed = 11, .sampler = SamplerKind::independent};
@@ -54,22 +35,7 @@ void check_agreement(std::string const& name, std::string const& text) {
     settings.seed = 12;
     Film const slow = test::rendered(*scene, "reference_path", settings);
     INFO(name);
-    CHECK(fast.rejected() == std::array<std::uint64_t, rejection_count>{});
-    // Per pixel: z of Y beyond 3.3 (two-sided level 1e-3) in no more of 144 pixels than 4; the whole: |z| < 4.
-    int beyond = 0;
-    for (int y = 0; y < fast.height(); ++y)
-        for (int x = 0; x < fast.width(); ++x) {
-            double const d = fast.mean(x, y).Y - slow.mean(x, y).Y, v = fast.variance(x, y).Y + slow.variance(x, y).Y;
-            beyond += d * d > 3.3 * 3.3 * v + 1e-20;
-        }
-    CHECK(beyond <= 4);
-    auto const a = picture_mean(fast), b = picture_mean(slow);
-    for (std::size_t k = 0; k < 3; ++k) {
-        double const z = (a[k].mean - b[k].mean) / std::sqrt(a[k].variance + b[k].variance + 1e-30);
-        INFO("component " << k << ": " << a[k].mean << " against " << b[k].mean);
-        CHECK(std::abs(z) < 4);
-        CHECK(b[k].mean > 0.01);
-    }
+    test::check_same_expectation(fast, slow);
 }
 
 }  // namespace
@@ -185,10 +151,10 @@ TEST_CASE("both integrators find 2 in the uniform cube", "[law]") {
     auto const scene = load_scene(find_scene("cube-uniform"));
     scene->film.width = scene->film.height = 8;
     for (char const* integrator : {"path", "reference_path"}) {
-        auto const m = picture_mean(test::rendered(*scene, integrator, {.spp = 1024, .seed = 13}));
+        auto const m = test::picture_mean(test::rendered(*scene, integrator, {.spp = 1024, .seed = 13}));
         INFO(integrator);
         constexpr double level = 3.8;  // normal quantile of 1e-3 / (2 x 6)
-        for (Moments const& c : m) {
+        for (test::Moments const& c : m) {
             CHECK(std::abs(c.mean - 2) < level * std::sqrt(c.variance));
             CHECK(c.variance < square(0.01));
         }
