@@ -150,7 +150,8 @@ int run_render(Options const& o) {
     std::string const name = o.integrator.empty() ? scene->render.integrator : o.integrator;
     auto const integrator = make_integrator(name, *scene, plan);
     if (!o.quiet)
-        for (std::string const& remark : scene->remarks) fmt::print(stderr, "note: {}\n", remark);
+        for (auto const& remarks : {scene->remarks, integrator->remarks()})
+            for (std::string const& remark : remarks) fmt::print(stderr, "note: {}\n", remark);
 
     Film film = make_film(*scene);
     RenderSettings settings = settings_of(o, *scene);

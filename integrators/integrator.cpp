@@ -5,6 +5,8 @@
 
 #include <array>
 
+#include "integrators/bidirectional.h"
+#include "integrators/light_tracing.h"
 #include "integrators/path.h"
 #include "integrators/radiosity/radiosity.h"
 
@@ -12,9 +14,13 @@ namespace iride {
 
 namespace {
 
-constexpr std::array<IntegratorEntry, 3> table{{
+constexpr std::array<IntegratorEntry, 6> table{{
     {"path", "path tracing: light sampling and scattering, unbiased", make_path},
     {"reference_path", "path tracing by scattering alone: slow, the oracle of the others", make_reference_path},
+    {"light-tracing", "paths from the lights, shown to the camera: caustics, but no mirror images", make_light_tracing},
+    {"bidirectional", "paths from camera and light, joined in every way: unbiased, caustics and mirror images",
+     make_bidirectional},
+    {"bidirectional-power", "the same, weighed by the power heuristic", make_bidirectional_power},
     {"radiosity", "diffuse surfaces cut into patches, solved for every wavelength: no noise",
      radiosity::make_radiosity},
 }};
