@@ -83,10 +83,10 @@ class Film {
     Image<Pixel> pixels_;
     std::vector<double> band_sum_;    // [height][width][band]
     std::vector<Response> response_;  // [grid.count] xbar, ybar, zbar over the integral of ybar
-    std::optional<Splats> splats_;
     Observer const& observer_;
     std::optional<Bands> bands_;
     bool exact_observer_;  // an observer of steps (bands of a sensor) is not linear between whole nanometres
+    std::optional<Splats> splats_;
 };
 
 }  // namespace iride

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "integrators/bidirectional.h"
+#include "integrators/choice.h"
 #include "integrators/light_tracing.h"
 #include "integrators/path.h"
 #include "integrators/radiosity/radiosity.h"
@@ -14,9 +15,10 @@ namespace iride {
 
 namespace {
 
-constexpr std::array<IntegratorEntry, 6> table{{
+constexpr std::array<IntegratorEntry, 7> table{{
     {"path", "path tracing: light sampling and scattering, unbiased", make_path},
     {"reference_path", "path tracing by scattering alone: slow, the oracle of the others", make_reference_path},
+    {"auto", "path or bidirectional, whichever suits the scene (`iride plan` says why)", make_auto},
     {"light-tracing", "paths from the lights, shown to the camera: caustics, but no mirror images", make_light_tracing},
     {"bidirectional", "paths from camera and light, joined in every way: unbiased, caustics and mirror images",
      make_bidirectional},

@@ -50,22 +50,24 @@ class LightTracing final : public Integrator {
 };
 
 bool has_dirac_lobe(NamedMaterial const& m) {
-    constexpr std::string_view smooth_by_nature[] = {"thin-dielectric", "thin-slab"};
-    return !m.material->traits.has_density || m.type == "plastic" ||
-           std::ranges::find(smooth_by_nature, m.type) != std::end(smooth_by_nature);
+    return m.type != "black" && (!m.material->traits.has_density || m.type == "plastic");
 }
 
 }  // namespace
 
-void check_light_paths_possible(Scene const& scene, RenderPlan const& plan, char const* integrator) {
-    auto const refuse = [&](std::string const& why) {
-        throw InputError({}, "integrator", fmt::format("'{}' cannot render this scene: {}", integrator, why));
-    };
+std::string why_no_light_paths(Scene const& scene, RenderPlan const& plan) {
     std::string const camera = CameraImportance::why_unsupported(scene.camera);
-    if (!camera.empty()) refuse(camera);
-    if (plan.media)
-        refuse("its bodies absorb or lie in one another, and light paths do not carry what they are in; use 'path'");
-    if (!scene.lights.has_power()) refuse("no light has any power");
+    if (!camera.empty()) return camera;
+    if (plan.media) return "its bodies absorb or lie in one another, and light paths do not carry what they are in";
+    if (!scene.lights.has_power()) return "no light has any power";
+    return {};
+}
+
+void check_light_paths_possible(Scene const& scene, RenderPlan const& plan, char const* integrator) {
+    std::string const why = why_no_light_paths(scene, plan);
+    if (!why.empty())
+        throw InputError({}, "integrator",
+                         fmt::format("'{}' cannot render this scene: {}; 'path' can", integrator, why));
 }
 
 std::unique_ptr<Integrator> make_light_tracing(Scene const& scene, RenderPlan const& plan) {
@@ -75,12 +77,12 @@ std::unique_ptr<Integrator> make_light_tracing(Scene const& scene, RenderPlan co
     bool any_density = false;
     for (NamedMaterial const& m : scene.materials) {
         any_density |= m.material->traits.has_density;
-        if (has_dirac_lobe(m) && m.type != "black") mirrors += (mirrors.empty() ? "" : ", ") + m.name;
+        if (has_dirac_lobe(m)) mirrors += (mirrors.empty() ? "" : ", ") + m.name;
     }
     if (!any_density)
         throw InputError({}, "integrator",
                          fmt::format("'{}' cannot render this scene: every surface is a mirror, glass or black, and no "
-                                     "light path can be shown to the camera; use 'path'",
+                                     "light path can be shown to the camera; 'path' can",
                                      name));
     std::vector<std::string> remarks;
     if (!mirrors.empty())

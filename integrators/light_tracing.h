@@ -11,7 +11,9 @@ namespace iride {
 // Throws InputError for a scene in which no light can be shown to the camera.
 std::unique_ptr<Integrator> make_light_tracing(Scene const& scene, RenderPlan const& plan);
 
-// What no integrator that starts paths at lights takes. Throws InputError that names `integrator`.
+// Why no integrator that starts paths at lights takes a scene; empty: they do.
+std::string why_no_light_paths(Scene const& scene, RenderPlan const& plan);
+// Throws InputError that says so of `integrator`.
 void check_light_paths_possible(Scene const& scene, RenderPlan const& plan, char const* integrator);
 
 }  // namespace iride

@@ -166,7 +166,8 @@ class RectangleLight final : public AreaLight {
     std::optional<LightSample> sample(Vector const& from, Wavelengths const& wavelengths, Sample2 u) const override {
         LightRequest request{from, u, &wavelengths};
         answer({&request, 1});
-        return request.sample;
+        if (!request.sample) return std::nullopt;
+        return *request.sample;
     }
     void answer(std::span<LightRequest> requests) const override {
         for (std::size_t first = 0; first < requests.size(); first += real_lanes)

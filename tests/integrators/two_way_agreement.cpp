@@ -12,7 +12,7 @@ struct Trial {
     int spp = 1500, oracle_spp = 12000;
 };
 
-void check_agreement(Scene const& scene, Trial const& t) {
+void check_agreement(Scene const& scene, Trial const& t = {}) {
     INFO(t.integrator << " against " << t.oracle);
     Film const fast = rendered(scene, t.integrator, {.spp = t.spp, .seed = 15, .sampler = SamplerKind::independent});
     Film const slow =
