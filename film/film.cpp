@@ -62,10 +62,8 @@ void Film::add(int x, int y, Wavelengths const& wavelengths, Radiance const& rad
 
 void Film::splat(int x, int y, Wavelengths const& wavelengths, Radiance const& radiance) {
     Power const power = radiance / wavelengths.density;
-    if (!is_finite(radiance) || !splats_->add(x, y, colour_of(wavelengths, power)))
-        return splats_->reject();
-    if (bands_)
-        for_bands(wavelengths, power, [&](int band, double v) { splats_->add_to_band(x, y, band, v); });
+    if (!is_finite(radiance) || !splats_->add(x, y, colour_of(wavelengths, power))) return splats_->reject();
+    if (bands_) for_bands(wavelengths, power, [&](int band, double v) { splats_->add_to_band(x, y, band, v); });
 }
 
 template <class Add>

@@ -51,7 +51,7 @@ bool Splats::add(int x, int y, Xyz const& value) {
 
 void Splats::add_to_band(int x, int y, int band, double value) {
     band_sum_[index(x, y) * band_count_ + static_cast<std::size_t>(band)].add(value /
-                                                                               static_cast<double>(pixel_count_));
+                                                                              static_cast<double>(pixel_count_));
 }
 
 void Splats::count_path() { add_atomically(paths_, 1); }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What light paths add to the picture, at whatever pixel they reach. Sums are integers, so the picture does not depend on the
-// order: a value v is kept as v = high 2^-12 + low 2^-44, two 64-bit counts that are added to on their own. A splat is
-// exact to 2^-45 and sums hold to 2^51. With v the splat over the number of pixels, N light paths for n pixels give
+// What light paths add to the picture, at whatever pixel they reach. Sums are integers, so the picture does not depend
+// on the order: a value v is kept as v = high 2^-12 + low 2^-44, two 64-bit counts that are added to on their own. A
+// splat is exact to 2^-45 and sums hold to 2^51. With v the splat over the number of pixels, N light paths for n pixels
+// give
 //   mean = n / N sum v,   variance of the mean = (n / N)^2 (sum v^2 - (sum v)^2 / N)
 // as if the splats of one light path to one pixel were independent of one another.
 #pragma once

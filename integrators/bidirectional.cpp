@@ -122,8 +122,9 @@ class Bidirectional final : public Integrator {
             float const chosen = scene.lights.probability(e);
             Lanes techniques = Heuristic::of(walk.state.reach);
             if (chosen > 0)
-                techniques += Heuristic::of(chosen * light.arriving_density(wi).value) * walk.near +
-                              Heuristic::of(chosen * light.emission_density(context_.ball, -wi, 1).product()) * walk.far;
+                techniques +=
+                    Heuristic::of(chosen * light.arriving_density(wi).value) * walk.near +
+                    Heuristic::of(chosen * light.emission_density(context_.ball, -wi, 1).product()) * walk.far;
             L += walk.state.weight * light.arriving(wi, path.wavelengths) * (1 / float(mean(techniques)));
         }
         return L;

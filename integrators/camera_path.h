@@ -22,7 +22,7 @@ struct CameraPath {
     Wavelengths wavelengths;
     Sampler sampler{SamplerKind::independent, 0, 0, 0};
     Radiance radiance;
-    bool complete = true;  // false: given up (longest_path), the sample must be dropped and counted
+    bool complete = true;       // false: given up (longest_path), the sample must be dropped and counted
     std::vector<Splat> splats;  // of the light path that goes with this one, Integrator::splats()
 };
 
@@ -33,7 +33,8 @@ class PathStarter {
     PathStarter(Scene const& scene, RenderPlan const& plan, int width, int height, SamplerKind kind,
                 std::uint64_t seed);
     void start(int x, int y, std::uint32_t sample, CameraPath& path) const;
-    // What a splat weighs at the pixels around it, by the filter from which camera paths are drawn: deposit(x, y, weight).
+    // What a splat weighs at the pixels around it, by the filter from which camera paths are drawn: deposit(x, y,
+    // weight).
     template <class Deposit>
     void spread(Splat const& splat, Deposit&& deposit) const {
         int const x0 = std::max(0, static_cast<int>(std::floor(splat.x - filter_radius_ - 0.5f))),

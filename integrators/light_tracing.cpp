@@ -86,8 +86,8 @@ std::unique_ptr<Integrator> make_light_tracing(Scene const& scene, RenderPlan co
                                      name));
     std::vector<std::string> remarks;
     if (!mirrors.empty())
-        remarks.push_back(fmt::format("{} leaves out what the camera sees by way of mirror images and glass: {}", name,
-                                      mirrors));
+        remarks.push_back(
+            fmt::format("{} leaves out what the camera sees by way of mirror images and glass: {}", name, mirrors));
     if (!scene.lights.environments().empty())
         remarks.push_back(fmt::format("{} leaves out light from infinity where the camera sees it directly", name));
     return std::make_unique<LightTracing>(scene, plan, std::move(remarks));

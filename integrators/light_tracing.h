@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Paths from the lights alone: every vertex, with the place on the lamp where they start, is shown to the camera. Finds
-// caustics at diffuse surfaces at once; cannot find what the camera sees by way of mirrors and glass, nor light from infinity
-// seen directly, and says so. [Arvo 1986] [Veach 1997, sec. 10.3]
+// caustics at diffuse surfaces at once; cannot find what the camera sees by way of mirrors and glass, nor light from
+// infinity seen directly, and says so. [Arvo 1986] [Veach 1997, sec. 10.3]
 #pragma once
 
 #include "integrators/integrator.h"

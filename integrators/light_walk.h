@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Paths that start at a light, as `light-tracing` and `bidirectional` follow them, and what one of their vertices shows to the
-// camera. Light vertex 0 lies on the light; its weights know that a vertex lit directly may have drawn it from there
-// (scene/light.h) or have met it by scattering.
+// Paths that start at a light, as `light-tracing` and `bidirectional` follow them, and what one of their vertices shows
+// to the camera. Light vertex 0 lies on the light; its weights know that a vertex lit directly may have drawn it from
+// there (scene/light.h) or have met it by scattering.
 #pragma once
 
 #include "integrators/subpath.h"
@@ -91,7 +91,8 @@ void walk_from_light(Scene const& scene, TwoWayContext const& context, CameraPat
         LightVertex<Heuristic> const here{Meeting(scene, *hit, back, wavelengths, chances.y), walk, number};
         if (here.meeting.seen().bsdf.has_density()) on_vertex(here, flux, lens);
         if (number == longest_path) path.complete = false;
-        if (number == context.max_bounces || !scatter_light(scene, wavelengths, here.meeting, {choices.y, on}, walk, ray))
+        if (number == context.max_bounces ||
+            !scatter_light(scene, wavelengths, here.meeting, {choices.y, on}, walk, ray))
             return;
         constexpr int roulette_from = 2;
         if (number > roulette_from && !survives<true>(walk.state, chances.x)) return;
@@ -164,10 +165,8 @@ std::optional<SentToCamera> send_to_camera(Scene const& scene, TwoWayContext con
     float const density = sight->density / context.light_paths;
     Lanes techniques = Heuristic::of(here.path.state.reach);
     if (weighed) techniques += here.path.others(Lanes(density * at.cosine(viewer)), Lanes(s.density.lane));
-    float const scale =
-        at.adjoint_cosine(s.cosine, at.back(), viewer) * sight->density / float(mean(techniques));
-    return send(at.point(), *sight,
-                Radiance(flux.lane * here.path.state.weight.lane * s.value.lane * scale));
+    float const scale = at.adjoint_cosine(s.cosine, at.back(), viewer) * sight->density / float(mean(techniques));
+    return send(at.point(), *sight, Radiance(flux.lane * here.path.state.weight.lane * s.value.lane * scale));
 }
 
 }  // namespace iride

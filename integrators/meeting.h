@@ -6,8 +6,8 @@
 //                         f(v, w) |w.n_s| |v.n_g| / |w.n_g|                              [Veach 1997, sec. 5.3]
 //   through a Dirac lobe, sampled from the light's side: the weight of a viewer's ray that comes along w, times
 //                         (n_v / n_w)^2 |w.n_s| |v.n_g| / (|w.n_g| |v.n_s|)
-// with n_s the shading and n_g the geometric normal, n_v and n_w the indices: radiance is scaled by the squared ratio of the
-// indices at a boundary, power is not. [Veach 1997, sec. 5.2]
+// with n_s the shading and n_g the geometric normal, n_v and n_w the indices: radiance is scaled by the squared ratio
+// of the indices at a boundary, power is not. [Veach 1997, sec. 5.2]
 #pragma once
 
 #include "integrators/scattering.h"

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// A subpath from the camera or a light, and what the weights of all techniques need of it. A path of given vertices may be made
-// by any technique k and with any lane i as hero; with P_k^i its density then, the balance heuristic divides f by
-// sum over k of the mean over i of P_k^i. Relative to what was done (technique s, hero h), per lane,
+// A subpath from the camera or a light, and what the weights of all techniques need of it. A path of given vertices may
+// be made by any technique k and with any lane i as hero; with P_k^i its density then, the balance heuristic divides f
+// by sum over k of the mean over i of P_k^i. Relative to what was done (technique s, hero h), per lane,
 //   P_s^i / P_s^h                  = reach
 //   sum_{k<s} P_k^i / P_s^h        = p_back (near + p_before far)
-// for the vertices of one subpath, where p_back is the density over area with which its last vertex, p_before the density
-// over solid angle with which the one before it, is found from the other side. Going on with density p (hero's):
+// for the vertices of one subpath, where p_back is the density over area with which its last vertex, p_before the
+// density over solid angle with which the one before it, is found from the other side. Going on with density p
+// (hero's):
 //   far' = |cos| / p (near + p_before far),   near' = reach / p;   through a Dirac lobe of probabilities P
 //   far' = |cos_back| (n_back / n_on)^2 P^i / P^h far,   near' = 0
 // and at the next hit near is multiplied by d^2 / |cos|, far divided by |cos|. No lane's own density is divided

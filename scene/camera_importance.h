@@ -3,12 +3,12 @@
 // int h = 1, and over the lens, int dl = 1. Seen from a surface point y by lens point l, dr = S dA cos(y), where S is
 // how many square pixels the image of a square metre that faces the ray has:
 //   perspective    S = 1 / (a cos^3 d^2)   a: area of a pixel at axial distance 1, cos: at the lens against the axis,
-//                                          d: from lens to y. A thin lens images by its plane in focus at axial distance F:
-//                                          a F^2 there, seen at F / cos; F cancels. So r is that of the point in focus
-//                                          on the ray from l to y, and a pinhole is the lens of radius 0
+//                                          d: from lens to y. A thin lens images by its plane in focus at axial
+//                                          distance F: a F^2 there, seen at F / cos; F cancels. So r is that of the
+//                                          point in focus on the ray from l to y, and a pinhole is the lens of radius 0
 //   orthographic   S = 1 / a               a: area of a pixel of the window
-// A light path that reaches y then adds h(r) f L cos(y) S to every pixel around r, and S cos(y) is the density over area
-// with which a camera path of evenly spread picture points reaches y.   [Veach 1997, sec. 8.2]
+// A light path that reaches y then adds h(r) f L cos(y) S to every pixel around r, and S cos(y) is the density over
+// area with which a camera path of evenly spread picture points reaches y.   [Veach 1997, sec. 8.2]
 #pragma once
 
 #include <optional>

@@ -27,9 +27,9 @@ struct EmissionDensity {
 
 // Where a light is in extent, in direction or at all: what other ways there are to find its rays.
 enum class LightExtent {
-    area,      // a surface: found by scattering, and by sampling from a point
-    point,     // one place, many directions
-    distant,   // one direction
+    area,         // a surface: found by scattering, and by sampling from a point
+    point,        // one place, many directions
+    distant,      // one direction
     environment,  // many directions, from infinity
 };
 

@@ -71,9 +71,11 @@ TEST_CASE("the density of a camera's rays is their Jacobian", "[law]") {
             float const distance = 0.5f + 6 * sampler.next(), x = width * place.x, y = height * place.y, h = 0.25f;
             Ray const ray = camera.ray(x, y, l);
             Vector const at = ray.origin + distance * ray.direction;
-            auto const meet = [&](float dx, float dy) { return on_plane(camera.ray(x + dx, y + dy, l), at, ray.direction); };
-            double const area = static_cast<double>(
-                ((meet(h, 0) - meet(-h, 0)).cross(meet(0, h) - meet(0, -h))).norm() / (4 * h * h));
+            auto const meet = [&](float dx, float dy) {
+                return on_plane(camera.ray(x + dx, y + dy, l), at, ray.direction);
+            };
+            double const area =
+                static_cast<double>(((meet(h, 0) - meet(-h, 0)).cross(meet(0, h) - meet(0, -h))).norm() / (4 * h * h));
             CHECK(importance.density(ray, distance) == Approx(1 / area).epsilon(5e-3));
         }
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays that leave lights follow their stated densities, and the mean of their flux is the light's power. Found to fail for a
-// two-sided lamp that sends all rays to its front with the density of one side, for a profile sampled by the diffuse
-// emitter's cosine, and for a disc before the scene of half the radius.
+// Rays that leave lights follow their stated densities, and the mean of their flux is the light's power. Found to fail
+// for a two-sided lamp that sends all rays to its front with the density of one side, for a profile sampled by the
+// diffuse emitter's cosine, and for a disc before the scene of half the radius.
 #include <catch2/catch.hpp>
 
 #include "support/scenes.h"
@@ -63,13 +63,14 @@ std::unique_ptr<Scene> lamp(std::string const& shape, std::string const& emissio
 }  // namespace
 
 TEST_CASE("lamps of any shape send out their power, from places and by densities that scattering would find", "[law]") {
-    for (char const* shape :
-         {R"("type": "quad", "corners": [[-1,1,-1],[1,1,-1],[1,1,1.5],[-1,1,1.5]])",
-          R"("type": "quad", "corners": [[-1,1,-1],[1.4,1,-0.8],[1,1,1.5],[-1.2,1,1]])",
-          R"("type": "sphere", "centre": [0.3,1.5,0.2], "radius": 0.9)",
-          R"("type": "disc", "centre": [0.3,1.1,0.2], "normal": [0.2,-1,0.1], "radius": 0.9)",
-          R"("type": "cone", "from": [0.2,-0.4,0.1], "to": [0.3,1.6,0.4], "radius": 0.6, "top_radius": 1.1, "caps": false)",
-          R"("type": "mesh", "vertices": [[-1,1,-1],[1.4,1.2,-0.8],[0.3,0.9,1.5],[0.2,2.4,0.1]], "triangles": [[0,1,2],[0,1,3],[1,2,3],[2,0,3]])"})
+    for (
+        char const* shape :
+        {R"("type": "quad", "corners": [[-1,1,-1],[1,1,-1],[1,1,1.5],[-1,1,1.5]])",
+         R"("type": "quad", "corners": [[-1,1,-1],[1.4,1,-0.8],[1,1,1.5],[-1.2,1,1]])",
+         R"("type": "sphere", "centre": [0.3,1.5,0.2], "radius": 0.9)",
+         R"("type": "disc", "centre": [0.3,1.1,0.2], "normal": [0.2,-1,0.1], "radius": 0.9)",
+         R"("type": "cone", "from": [0.2,-0.4,0.1], "to": [0.3,1.6,0.4], "radius": 0.6, "top_radius": 1.1, "caps": false)",
+         R"("type": "mesh", "vertices": [[-1,1,-1],[1.4,1.2,-0.8],[0.3,0.9,1.5],[0.2,2.4,0.1]], "triangles": [[0,1,2],[0,1,3],[1,2,3],[2,0,3]])"})
         for (char const* emission :
              {R"("radiance": 1)", R"("radiance": 1, "two_sided": true)",
               R"("radiance": 1, "two_sided": true, "profile": { "exponent": 3, "cone_deg": 50 })"}) {
@@ -123,7 +124,8 @@ TEST_CASE("a lamp's rays follow its profile", "[law]") {
 
 TEST_CASE("a spot with barn doors sends out its power within its cone", "[law]") {
     Direction const axis = Vector(0.2f, -1, 0.3f).normalized();
-    float const cos_full = static_cast<float>(std::cos(radians(10.))), cos_end = static_cast<float>(std::cos(radians(40.)));
+    float const cos_full = static_cast<float>(std::cos(radians(10.))),
+                cos_end = static_cast<float>(std::cos(radians(40.)));
     Frame const frame = Frame::around(axis);
     SpotFlaps const flaps{frame.tangent, frame.bitangent, {-0.3f, -9}, {0.2f, 9}};
     Wavelengths const w = some_wavelengths();
