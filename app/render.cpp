@@ -231,6 +231,15 @@ RenderReport sampled(Scene const& scene, RenderPlan const& plan, Integrator cons
     return render_adaptively(scene, plan, integrator, settings, settings.stop_at, state.films, state.round);
 }
 
+// Splats are in no checkpoint, belong to the whole picture, and have no pixel's number of samples.
+void check_goes_with(Integrator const& integrator, std::string const& name, Options const& o) {
+    if (!integrator.splats()) return;
+    for (auto const& [option, given] :
+         {std::pair("--adaptive", o.adaptive), {"--checkpoint", !o.checkpoint.empty()}, {"--crop", !o.crop.empty()}})
+        if (given)
+            fail(option, fmt::format("does not go with integrator '{}', whose pixels share their light paths", name));
+}
+
 int run_render(Options const& o) {
     if (o.adaptive && o.error.empty() && o.seconds == 0) fail("--adaptive", "needs --error or --time to say how far");
     auto const scene = load_scene(find_scene(o.scene));
@@ -247,9 +256,11 @@ int run_render(Options const& o) {
         fail("--solution", fmt::format("found integrator '{}', allowed: radiosity", name));
     auto const integrator = o.solution.empty() ? make_integrator(choice, *scene, plan)
                                                : radiosity::show(radiosity::load_solution(o.solution, *scene));
+    check_goes_with(*integrator, name, o);
     std::vector<std::string> const layers = parse_layers(o.aov, name, o.adaptive);
     if (!o.quiet)
-        for (std::string const& remark : scene->remarks) fmt::print(stderr, "note: {}\n", remark);
+        for (auto const& remarks : {scene->remarks, integrator->remarks()})
+            for (std::string const& remark : remarks) fmt::print(stderr, "note: {}\n", remark);
 
     RenderSettings settings = settings_of(o, *scene);
     ExrSettings const of{o.colourspace,    scene->film.white, scene->film.exposure,

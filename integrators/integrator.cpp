@@ -6,6 +6,9 @@
 #include <array>
 
 #include "integrators/ambient_occlusion.h"
+#include "integrators/bidirectional.h"
+#include "integrators/choice.h"
+#include "integrators/light_tracing.h"
 #include "integrators/path.h"
 #include "integrators/radiosity/radiosity.h"
 #include "integrators/recursive.h"
@@ -14,9 +17,14 @@ namespace iride {
 
 namespace {
 
-constexpr std::array<IntegratorEntry, 6> table{{
+constexpr std::array<IntegratorEntry, 10> table{{
     {"path", "path tracing: light sampling and scattering, unbiased", make_path, true},
     {"reference_path", "path tracing by scattering alone: slow, the oracle of the others", make_reference_path, true},
+    {"auto", "path or bidirectional, whichever suits the scene (`iride plan` says why)", make_auto},
+    {"light-tracing", "paths from the lights, shown to the camera: caustics, but no mirror images", make_light_tracing},
+    {"bidirectional", "paths from camera and light, joined in every way: unbiased, caustics and mirror images",
+     make_bidirectional},
+    {"bidirectional-power", "the same, weighed by the power heuristic", make_bidirectional_power},
     {"direct",
      "lamps and what they light without a stop; strategy= hemisphere, cosine, bsdf, area, solid-angle, mis; "
      "lights= uniform, power, tree, all; samples=",

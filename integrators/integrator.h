@@ -21,6 +21,10 @@ class Integrator {
     virtual ~Integrator() = default;
     // Follow at most batch_size paths, each on its own: what a path brings does not depend on those beside it.
     virtual void follow(Scene const& scene, std::span<CameraPath> paths, RayStatistics& statistics) const = 0;
+    // Whether a light path goes with each camera path, and leaves splats.
+    virtual bool splats() const { return false; }
+    // What the user is told before the first path, such as which light will be missing.
+    virtual std::vector<std::string> remarks() const { return {}; }
 };
 
 struct IntegratorEntry {

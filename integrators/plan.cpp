@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 
+#include "integrators/choice.h"
+
 namespace iride {
 
 namespace {
@@ -186,6 +188,8 @@ RenderPlan make_plan(Scene const& scene) {
     decide("bounce limit", plan.max_bounces.has_value(),
            plan.max_bounces ? fmt::format("{} (the file's wish: light beyond is left out)", *plan.max_bounces)
                             : "none: Russian roulette ends paths without bias");
+    AutomaticChoice const choice = choose_integrator(scene, plan);
+    decide("integrator auto", true, choice.name + ": " + choice.reason);
     return plan;
 }
 

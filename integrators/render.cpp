@@ -68,6 +68,12 @@ class Batch {
             film_.reject(p.x, p.y, Rejection::negative);
         else
             film_.add(p.x, p.y, path.wavelengths, path.radiance);
+        if (!integrator_.splats() || !path.complete) return;
+        film_.count_light_path();
+        for (Splat const& splat : path.splats)
+            starter_.spread(splat, [&](int x, int y, float weight) {
+                film_.splat(x, y, path.wavelengths, splat.radiance * weight);
+            });
     }
 
     Scene const& scene_;
@@ -165,6 +171,7 @@ Film make_film(Scene const& scene, std::optional<Crop> const& crop) {
 
 RenderReport render(Scene const& scene, RenderPlan const& plan, Integrator const& integrator,
                     RenderSettings const& settings, Film& film) {
+    if (integrator.splats()) film.add_splat_layer();
     Loop loop(scene, plan, integrator, settings, film);
     RenderReport report;
     std::uint64_t const paths_before = film.total_samples();

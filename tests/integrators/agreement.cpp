@@ -1,31 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 // `path` against `reference_path` by a z-test on eight small scenes, and both against closed forms.
-#include <fmt/format.h>
-#include <catch2/catch.hpp>
-
 #include "support/agreement.h"
-#include "support/scenes.h"
+
+#include <fmt/format.h>
+
+#include <catch2/catch.hpp>
 
 using namespace iride;
 
 namespace {
 
-std::string scene_text(std::string const& camera, std::string const& rest) {
-    return fmt::format(
-        R"({{ "camera": {}, "film": {{ "size": [12, 12] }}, "render": {{ "sampler": "independent" }}, {} }})", camera,
-        rest);
-}
-
-std::string const view = R"({ "eye": [0, 1, -4], "target": [0, 0.6, 0], "field_deg": 40 })";
-std::string const floor_quad =
-    R"({ "type": "quad", "corners": [[-3,0,-3],[-3,0,3],[3,0,3],[3,0,-3]], "material": { "type": "diffuse", "reflectance": 0.6 } })";
-std::string const lamp =
-    R"({ "type": "quad", "corners": [[-1.2,2.5,-1],[1,2.5,-1],[1,2.5,1.2],[-1.2,2.5,1.2]], "material": { "type": "black" }, "emission": { "radiance": { "data": "D65", "luminance_weighted": 3 } } })";
-std::string const big_lamp_sphere =
-    R"({ "type": "sphere", "centre": [1.5,1.6,0.5], "radius": 0.8, "material": { "type": "diffuse", "reflectance": 0.3 }, "emission": { "radiance": 2 } })";
-std::string sphere(std::string const& material) {
-    return fmt::format(R"({{ "type": "sphere", "centre": [0,0.7,0], "radius": 0.7, "material": {} }})", material);
-}
+using test::big_lamp_sphere;
+using test::floor_quad;
+using test::lamp;
+using test::Moments;
+using test::picture_mean;
+using test::scene_text;
+using test::sphere;
+using test::view;
 
 void check_agreement(std::string const& name, std::string const& text) {
     auto const scene = test::scene_from(text);
@@ -35,7 +27,7 @@ void check_agreement(std::string const& name, std::string const& text) {
     settings.seed = 12;
     Film const slow = test::rendered(*scene, "reference_path", settings);
     INFO(name);
-    test::check_same_expectation(fast, slow);
+    test::check_films_agree(fast, slow);
 }
 
 }  // namespace
@@ -151,10 +143,10 @@ TEST_CASE("both integrators find 2 in the uniform cube", "[law]") {
     auto const scene = load_scene(find_scene("cube-uniform"));
     scene->film.width = scene->film.height = 8;
     for (char const* integrator : {"path", "reference_path"}) {
-        auto const m = test::picture_mean(test::rendered(*scene, integrator, {.spp = 1024, .seed = 13}));
+        auto const m = picture_mean(test::rendered(*scene, integrator, {.spp = 1024, .seed = 13}));
         INFO(integrator);
         constexpr double level = 3.8;  // normal quantile of 1e-3 / (2 x 6)
-        for (test::Moments const& c : m) {
+        for (Moments const& c : m) {
             CHECK(std::abs(c.mean - 2) < level * std::sqrt(c.variance));
             CHECK(c.variance < square(0.01));
         }
