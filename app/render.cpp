@@ -147,8 +147,8 @@ int run_render(Options const& o) {
     std::optional<ColourTransform> display;
     if (!out.preview.empty()) display = ColourConfig(o.ocio).to_display("", o.view);
     RenderPlan const plan = make_plan(*scene);
-    std::string const name = o.integrator.empty() ? scene->render.integrator : o.integrator;
-    auto const integrator = make_integrator(name, *scene, plan);
+    IntegratorChoice const choice = o.integrator.empty() ? scene->render.integrator : parse_integrator(o.integrator);
+    auto const integrator = make_integrator(choice, *scene, plan);
     if (!o.quiet)
         for (std::string const& remark : scene->remarks) fmt::print(stderr, "note: {}\n", remark);
 
@@ -164,11 +164,11 @@ int run_render(Options const& o) {
     }
 
     write_exr(film,
-              {o.colourspace, scene->film.white, scene->film.exposure, scene->film.half, scene->name, scene->hash, name,
-               settings.seed},
+              {o.colourspace, scene->film.white, scene->film.exposure, scene->film.half, scene->name, scene->hash,
+               choice.text(), settings.seed},
               out.exr);
     if (display) write_preview(film, scene->film.white, scene->film.exposure, *display, out.preview);
-    if (!out.report.empty()) write_report(out.report, *scene, name, report, film);
+    if (!out.report.empty()) write_report(out.report, *scene, choice.text(), report, film);
     if (!o.quiet) print_summary(report, film, out.exr);
     if (report.interrupted) {
         fmt::print(stderr, "iride: interrupted; what was finished is saved\n");
@@ -192,7 +192,7 @@ Command add_render(CLI::App& app) {
     parser->add_option("-o,--output", o->output, "EXR file to write (default: the scene's name in this folder)");
     std::string integrators;
     for (IntegratorEntry const& e : integrator_entries()) integrators += fmt::format("\n  {}: {}", e.name, e.summary);
-    parser->add_option("--integrator", o->integrator, "how light is found:" + integrators);
+    parser->add_option("--integrator", o->integrator, "how light is found, NAME or NAME:key=value,...:" + integrators);
     auto* const spp = parser->add_option("--spp", o->spp, "samples per pixel")->check(CLI::Range(1, 1 << 24));
     auto* const seconds =
         parser->add_option("--time", o->seconds, "stop after the pass that ends beyond this many seconds")

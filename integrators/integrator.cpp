@@ -23,13 +23,23 @@ constexpr std::array<IntegratorEntry, 3> table{{
 
 std::span<IntegratorEntry const> integrator_entries() { return table; }
 
-std::unique_ptr<Integrator> make_integrator(std::string const& name, Scene const& scene, RenderPlan const& plan) {
+std::unique_ptr<Integrator> make_integrator(IntegratorChoice const& choice, Scene const& scene,
+                                            RenderPlan const& plan) {
     std::vector<std::string> names;
     for (IntegratorEntry const& e : table) {
-        if (name == e.name) return e.make(scene, plan);
         names.emplace_back(e.name);
+        if (choice.name != e.name) continue;
+        IntegratorOptions options(choice);
+        auto integrator = e.make(scene, plan, options);
+        options.finish();
+        return integrator;
     }
-    throw InputError({}, "integrator", fmt::format("unknown integrator '{}'{}", name, suggestion(name, names)));
+    throw InputError({choice.file.string(), choice.line, choice.column}, choice.key_path,
+                     fmt::format("unknown integrator '{}'{}", choice.name, suggestion(choice.name, names)));
+}
+
+std::unique_ptr<Integrator> make_integrator(std::string const& text, Scene const& scene, RenderPlan const& plan) {
+    return make_integrator(parse_integrator(text), scene, plan);
 }
 
 }  // namespace iride

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "integrators/camera_path.h"
+#include "integrators/integrator_options.h"
 
 namespace iride {
 
@@ -25,11 +26,14 @@ class Integrator {
 struct IntegratorEntry {
     char const* name;
     char const* summary;
-    std::unique_ptr<Integrator> (*make)(Scene const&, RenderPlan const&);
+    // Asks all its options, calls options.finish() if it then works long, and says what scene it cannot do.
+    std::unique_ptr<Integrator> (*make)(Scene const&, RenderPlan const&, IntegratorOptions& options);
 };
 std::span<IntegratorEntry const> integrator_entries();
 // What an integrator works out before the first path is done here. Throws InputError with the nearest name.
-std::unique_ptr<Integrator> make_integrator(std::string const& name, Scene const& scene, RenderPlan const& plan);
+std::unique_ptr<Integrator> make_integrator(IntegratorChoice const& choice, Scene const& scene, RenderPlan const& plan);
+// The same of NAME[:key=value,...].
+std::unique_ptr<Integrator> make_integrator(std::string const& text, Scene const& scene, RenderPlan const& plan);
 
 // A path that scatters this often in a scene without absorption would never end: it is given up and counted.
 inline constexpr int longest_path = 10000;

@@ -301,7 +301,7 @@ class Path final : public Integrator {
 
 }  // namespace
 
-std::unique_ptr<Integrator> make_path(Scene const&, RenderPlan const& plan) {
+std::unique_ptr<Integrator> make_path(Scene const&, RenderPlan const& plan, IntegratorOptions&) {
     if (plan.media)
         return plan.dispersion ? std::unique_ptr<Integrator>(std::make_unique<Path<true, true>>(plan))
                                : std::make_unique<Path<false, true>>(plan);

@@ -13,6 +13,7 @@
 #include "colour/xyz.h"
 #include "scene/accelerator.h"
 #include "scene/camera.h"
+#include "scene/integrator_choice.h"
 #include "scene/light.h"
 
 namespace iride {
@@ -31,7 +32,7 @@ struct FilmSettings {
 };
 
 struct RenderDefaults {
-    std::string integrator = "path";
+    IntegratorChoice integrator{};
     int spp = 64;
     std::uint64_t seed = 0;
     SamplerKind sampler = SamplerKind::sobol;

@@ -199,7 +199,8 @@ class Show final : public Integrator {
 
 }  // namespace
 
-std::unique_ptr<Integrator> make_radiosity(Scene const& scene, RenderPlan const& plan) {
+std::unique_ptr<Integrator> make_radiosity(Scene const& scene, RenderPlan const& plan, IntegratorOptions& options) {
+    options.finish();
     return std::make_unique<Show>(scene, plan);
 }
 

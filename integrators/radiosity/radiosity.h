@@ -55,6 +55,6 @@ class SceneRadiosity {
     Report report_;
 };
 
-std::unique_ptr<Integrator> make_radiosity(Scene const& scene, RenderPlan const& plan);
+std::unique_ptr<Integrator> make_radiosity(Scene const& scene, RenderPlan const& plan, IntegratorOptions& options);
 
 }  // namespace iride::radiosity
