@@ -19,6 +19,31 @@ class AreaLight : public Light {
     AreaLight(EmitterStrength strength, double area, bool flipped)
         : strength_(std::move(strength)), area_(area), flipped_(flipped) {}
 
+    std::optional<EmissionSample> emit(Ball const& scene, Wavelengths const& wavelengths, Sample2 place,
+                                       Sample2 direction) const override {
+        Place const at = uniform_place(place);
+        Direction normal = flipped_ ? Direction(-at.outward) : at.outward;
+        SurfacePoint from{at.point, normal, normal};
+        if (strength_.emitter.two_sided) {
+            bool const back = direction.x >= 0.5f;
+            direction.x = 2 * direction.x - (back ? 1 : 0);
+            if (back) normal = -normal;
+        }
+        Direction const local = strength_.emitter.profile.sample(direction);
+        float const s = strength_.emitter.share(local.z());
+        if (!(local.z() > 0 && s > 0)) return std::nullopt;
+        Direction const travel = Frame::around(normal).to_world(local);
+        return std::optional<EmissionSample>(std::in_place, from, at.primitive, travel, local.z(),
+                                             emission_density(scene, travel, local.z()),
+                                             strength_.emitter.radiance.at(wavelengths) * s);
+    }
+    EmissionDensity emission_density(Ball const&, Direction const&, float cosine) const override {
+        float const both = strength_.emitter.share(cosine) * std::abs(cosine) /
+                           static_cast<float>(strength_.emitter.profile.exitance() * sides());
+        return {PerSquareMetre(1 / static_cast<float>(area_)), PerSteradian(both)};
+    }
+    LightExtent extent() const override { return LightExtent::area; }
+
     Radiance emitted(SurfacePoint const& on, Direction const& wo, Wavelengths const& wavelengths) const override {
         float const share = strength_.emitter.share(wo.dot(on.geometric_normal));
         return share > 0 ? strength_.emitter.radiance.at(wavelengths) * share : Radiance{};
@@ -28,6 +53,14 @@ class AreaLight : public Light {
     }
 
   protected:
+    struct Place {
+        Vector point;
+        Direction outward;
+        std::uint32_t primitive = 0;
+    };
+    // Uniform over the area.
+    virtual Place uniform_place(Sample2 u) const = 0;
+
     int sides() const { return strength_.emitter.two_sided ? 2 : 1; }
 
     // Whether a point of outward normal n may shine along -d.
@@ -47,7 +80,9 @@ class AreaLight : public Light {
         float const distance = d.norm();
         if (!(distance > 0 && density.value > 0 && density.value < infinity)) return;
         float const s = share(d, distance, n);
-        if (s > 0) r.sample.emplace(d / distance, distance, strength_.emitter.radiance.at(*r.wavelengths) * s, density);
+        if (s > 0)
+            r.sample.emplace(d / distance, distance, strength_.emitter.radiance.at(*r.wavelengths) * s, density,
+                             std::abs(facing(d, n)) / distance);
     }
 
     // A point of the surface with its outward normal, found with the given density.
@@ -82,8 +117,7 @@ class SphereLight final : public AreaLight {
 
     std::optional<LightSample> sample(Vector const& from, Wavelengths const& wavelengths, Sample2 u) const override {
         if (!outside(from)) {
-            Direction const n = to_sphere(u);
-            Vector const point = sphere_.centre + sphere_.radius * n;
+            auto const [point, n, primitive] = uniform_place(u);
             return towards(from, point, n, wavelengths, area_density(static_cast<float>(area_), from, point, n));
         }
         Vector const d = sphere_.centre - from;
@@ -97,7 +131,8 @@ class SphereLight final : public AreaLight {
         float const s = shines(wi, n) ? share(wi, 1, n) : 0;
         if (s == 0) return std::nullopt;
         return std::optional<LightSample>(std::in_place, wi, (point - from).norm(),
-                                          strength_.emitter.radiance.at(wavelengths) * s, cone_density(height));
+                                          strength_.emitter.radiance.at(wavelengths) * s, cone_density(height),
+                                          std::abs(wi.dot(n)));
     }
     PerSteradian density(Vector const& from, SurfacePoint const& on, std::uint32_t) const override {
         if (outside(from)) return cone_density(cone_height(from));
@@ -105,6 +140,10 @@ class SphereLight final : public AreaLight {
     }
 
   private:
+    Place uniform_place(Sample2 u) const override {
+        Direction const n = to_sphere(u);
+        return {sphere_.centre + sphere_.radius * n, n};
+    }
     // A little clear of the surface, where the cone is a hemisphere and the density no longer helps.
     bool outside(Vector const& from) const {
         return (from - sphere_.centre).squaredNorm() > square(sphere_.radius) * 1.0001f;
@@ -127,7 +166,8 @@ class RectangleLight final : public AreaLight {
     std::optional<LightSample> sample(Vector const& from, Wavelengths const& wavelengths, Sample2 u) const override {
         LightRequest request{from, u, &wavelengths};
         answer({&request, 1});
-        return request.sample;
+        if (!request.sample) return std::nullopt;
+        return *request.sample;
     }
     void answer(std::span<LightRequest> requests) const override {
         for (std::size_t first = 0; first < requests.size(); first += real_lanes)
@@ -140,6 +180,10 @@ class RectangleLight final : public AreaLight {
     }
 
   private:
+    Place uniform_place(Sample2 u) const override {
+        return {rectangle_.corner + u.x * rectangle_.width * rectangle_.x + u.y * rectangle_.height * rectangle_.y,
+                rectangle_.normal};
+    }
     // At most eight requests, side by side in registers.
     void answer_eight(std::span<LightRequest> requests) const {
         Real8 x{}, y{}, z{}, u{}, v{};
@@ -162,8 +206,7 @@ class RectangleLight final : public AreaLight {
     }
 
     void sample_area(LightRequest& r) const {
-        Vector const point =
-            rectangle_.corner + r.u.x * rectangle_.width * rectangle_.x + r.u.y * rectangle_.height * rectangle_.y;
+        Vector const point = uniform_place(r.u).point;
         put(r, point - r.from, rectangle_.normal,
             area_density(static_cast<float>(area_), r.from, point, rectangle_.normal));
     }
@@ -195,8 +238,7 @@ class TrianglesLight final : public AreaLight {
                                                            (t[2] - from).normalized(), v);
             point = from + wi * ((t[0] - from).dot(n) / wi.dot(n));
         } else {
-            Vector2 const b = to_triangle(v);
-            point = t[0] + b.x() * (t[1] - t[0]) + b.y() * (t[2] - t[0]);
+            point = in_triangle(t, v);
         }
         return towards(from, point, n, wavelengths, triangle_density(t, from, point, n) * choice.probability);
     }
@@ -207,6 +249,16 @@ class TrianglesLight final : public AreaLight {
     }
 
   private:
+    Place uniform_place(Sample2 u) const override {
+        auto const choice = by_area_.sample(u.x);
+        Triangle const& t = triangles_[static_cast<std::size_t>(choice.index)];
+        return {in_triangle(t, {choice.rest, u.y}), (t[1] - t[0]).cross(t[2] - t[0]).normalized(),
+                static_cast<std::uint32_t>(choice.index)};
+    }
+    static Vector in_triangle(Triangle const& t, Sample2 u) {
+        Vector2 const b = to_triangle(u);
+        return t[0] + b.x() * (t[1] - t[0]) + b.y() * (t[2] - t[0]);
+    }
     static double area(Triangle const& t) { return 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm(); }
     static float solid_angle(Triangle const& t, Vector const& from) {
         return triangle_solid_angle((t[0] - from).normalized(), (t[1] - from).normalized(), (t[2] - from).normalized());
@@ -231,8 +283,7 @@ class DiscLight final : public AreaLight {
           frame_(Frame::around(disc.normal)) {}
 
     std::optional<LightSample> sample(Vector const& from, Wavelengths const& wavelengths, Sample2 u) const override {
-        Vector2 const d = disc_.radius * to_disc(u);
-        Vector const point = disc_.centre + frame_.to_world({d.x(), d.y(), 0});
+        Vector const point = uniform_place(u).point;
         return towards(from, point, disc_.normal, wavelengths,
                        area_density(static_cast<float>(area_), from, point, disc_.normal));
     }
@@ -241,6 +292,11 @@ class DiscLight final : public AreaLight {
     }
 
   private:
+    Place uniform_place(Sample2 u) const override {
+        Vector2 const d = disc_.radius * to_disc(u);
+        return {disc_.centre + frame_.to_world({d.x(), d.y(), 0}), disc_.normal};
+    }
+
     Disc disc_;
     Frame frame_;
 };
@@ -253,6 +309,15 @@ class FrustumLight final : public AreaLight {
           frame_(Frame::around((f.to - f.from).normalized())) {}
 
     std::optional<LightSample> sample(Vector const& from, Wavelengths const& wavelengths, Sample2 u) const override {
+        auto const [point, n, primitive] = uniform_place(u);
+        return towards(from, point, n, wavelengths, area_density(static_cast<float>(area_), from, point, n));
+    }
+    PerSteradian density(Vector const& from, SurfacePoint const& on, std::uint32_t) const override {
+        return area_density(static_cast<float>(area_), from, on.position, on.geometric_normal);
+    }
+
+  private:
+    Place uniform_place(Sample2 u) const override {
         // Height with density proportional to the radius there, inverted without cancellation:
         // r(z)^2 = r0^2 + u (r1^2 - r0^2).
         float const r0 = frustum_.radius, r1 = frustum_.top_radius;
@@ -261,15 +326,10 @@ class FrustumLight final : public AreaLight {
         float const m = (r1 - r0) / frustum_.length();
         auto const [sine, cosine] = sine_cosine_of_turns(u.y);
         Vector const outward = frame_.to_world({cosine, sine, 0});
-        Vector const point = frustum_.from + z * (frustum_.to - frustum_.from) + r * outward;
-        Direction const n = (outward - m * frame_.normal).normalized();
-        return towards(from, point, n, wavelengths, area_density(static_cast<float>(area_), from, point, n));
-    }
-    PerSteradian density(Vector const& from, SurfacePoint const& on, std::uint32_t) const override {
-        return area_density(static_cast<float>(area_), from, on.position, on.geometric_normal);
+        return {frustum_.from + z * (frustum_.to - frustum_.from) + r * outward,
+                (outward - m * frame_.normal).normalized()};
     }
 
-  private:
     Frustum frustum_;
     Frame frame_;
 };

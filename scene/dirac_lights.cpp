@@ -23,6 +23,20 @@ class SpotLight final : public Light {
         Radiance const arriving((intensity_.at(wavelengths) * (share / square(distance))).lane);
         return std::optional<LightSample>(std::in_place, wi, distance, arriving, std::nullopt);
     }
+    std::optional<EmissionSample> emit(Ball const& scene, Wavelengths const& wavelengths, Sample2,
+                                       Sample2 direction) const override {
+        Direction const travel = Frame::around(cone_.axis).to_world(to_cone(direction, 1 - cone_.cos_end));
+        float const share = share_along(travel);
+        if (share == 0) return std::nullopt;
+        return std::optional<EmissionSample>(std::in_place, SurfacePoint{position_, travel, travel}, 0u, travel, 1.0f,
+                                             emission_density(scene, travel, 1),
+                                             Radiance((intensity_.at(wavelengths) * share).lane));
+    }
+    EmissionDensity emission_density(Ball const&, Direction const& travel, float) const override {
+        bool const inside = travel.dot(cone_.axis) >= cone_.cos_end;
+        return {PerSquareMetre(1), inside ? cone_density(1 - cone_.cos_end) : PerSteradian(0)};
+    }
+    LightExtent extent() const override { return LightExtent::point; }
     double power(double) const override { return power_; }
 
   private:
@@ -76,6 +90,18 @@ class DistantLight final : public Light {
         return std::optional<LightSample>(std::in_place, wi_, infinity, Radiance(irradiance_.at(wavelengths).lane),
                                           std::nullopt);
     }
+    std::optional<EmissionSample> emit(Ball const& scene, Wavelengths const& wavelengths, Sample2 place,
+                                       Sample2) const override {
+        Direction const travel = -wi_;
+        Vector const from = place_before_scene(scene, travel, place);
+        return std::optional<EmissionSample>(std::in_place, SurfacePoint{from, travel, travel}, 0u, travel, 1.0f,
+                                             emission_density(scene, travel, 1),
+                                             Radiance(irradiance_.at(wavelengths).lane));
+    }
+    EmissionDensity emission_density(Ball const& scene, Direction const&, float) const override {
+        return {density_before_scene(scene), PerSteradian(1)};
+    }
+    LightExtent extent() const override { return LightExtent::distant; }
     double power(double scene_radius) const override { return luminance_ * pi_double * square(scene_radius); }
 
   private:
