@@ -125,10 +125,10 @@ class Loop {
 
 // Passes double, so that a time or an error is met closely and the overhead stays small; without either, and with
 // progress shown, sixteenths of the whole.
-int next_pass(RenderSettings const& s, int done) {
+int next_pass(RenderSettings const& s, int done, int together) {
     bool const open_ended = s.seconds || s.relative_error;
     int const wanted = open_ended ? std::max(1, done) : std::max(4, s.spp / 16);
-    return std::min(s.spp - done, wanted);
+    return std::min({s.spp - done, wanted, together - done % together});
 }
 
 }  // namespace
@@ -140,8 +140,8 @@ Film make_film(Scene const& scene) {
     return Film(f.width, f.height, cie1931_2deg(), scene.grid, bands);
 }
 
-RenderReport render(Scene const& scene, RenderPlan const& plan, Integrator const& integrator,
-                    RenderSettings const& settings, Film& film) {
+RenderReport render(Scene const& scene, RenderPlan const& plan, Integrator& integrator, RenderSettings const& settings,
+                    Film& film) {
     Loop loop(scene, plan, integrator, settings, film);
     RenderReport report;
     Clock::time_point const start = Clock::now();
@@ -157,13 +157,14 @@ RenderReport render(Scene const& scene, RenderPlan const& plan, Integrator const
         return std::min(1.0, in_pass / settings.spp);
     };
     while (report.spp < settings.spp && !loop.stopped()) {
-        int const pass = next_pass(settings, report.spp);
+        int const pass = next_pass(settings, report.spp, integrator.samples_together());
+        auto const first = static_cast<std::uint32_t>(report.spp), last = static_cast<std::uint32_t>(report.spp + pass);
         arena.execute([&] {
+            integrator.prepare(scene, {settings.seed, first, last}, report.rays);
             tbb::parallel_for(0, loop.tile_count(), [&](int i) {
                 if (loop.stopped()) return;
                 int const tile = settings.reversed_tiles ? loop.tile_count() - 1 - i : i;
-                loop.render_tile(tile, static_cast<std::uint32_t>(report.spp),
-                                 static_cast<std::uint32_t>(report.spp + pass));
+                loop.render_tile(tile, first, last);
                 tiles_done += static_cast<std::uint64_t>(pass);
                 if (settings.on_progress) settings.on_progress(report.spp, share());
             });
@@ -178,7 +179,7 @@ RenderReport render(Scene const& scene, RenderPlan const& plan, Integrator const
     report.seconds = seconds_since(start);
     for (int y = 0; y < film.height(); ++y)
         for (int x = 0; x < film.width(); ++x) report.paths += film.sample_count(x, y);
-    report.rays = totals.rays;
+    report.rays.add(totals.rays);
     if (totals.timed_ticks > 0)
         report.embree_share = static_cast<double>(totals.rays.traced_ticks) / static_cast<double>(totals.timed_ticks);
     return report;

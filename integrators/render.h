@@ -37,7 +37,7 @@ struct RenderReport {
 // The film a scene asks for.
 Film make_film(Scene const& scene);
 
-RenderReport render(Scene const& scene, RenderPlan const& plan, Integrator const& integrator,
-                    RenderSettings const& settings, Film& film);
+RenderReport render(Scene const& scene, RenderPlan const& plan, Integrator& integrator, RenderSettings const& settings,
+                    Film& film);
 
 }  // namespace iride
