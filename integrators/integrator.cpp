@@ -6,17 +6,22 @@
 #include <array>
 
 #include "integrators/path.h"
+#include "integrators/photon/photon_integrators.h"
 #include "integrators/radiosity/radiosity.h"
 
 namespace iride {
 
 namespace {
 
-constexpr std::array<IntegratorEntry, 3> table{{
+constexpr std::array<IntegratorEntry, 6> table{{
     {"path", "path tracing: light sampling and scattering, unbiased", make_path},
     {"reference_path", "path tracing by scattering alone: slow, the oracle of the others", make_reference_path},
     {"radiosity", "diffuse surfaces cut into patches, solved for every wavelength: no noise",
      radiosity::make_radiosity},
+    {"photon-map", "one photon map, nearest photons: caustics at once, biased", make_photon_map},
+    {"progressive-photon", "photon maps of shrinking radius, pass by pass: unbiased in the limit",
+     make_progressive_photon},
+    {"final-gather", "photons or radiosity, gathered one scattering away: smooth", make_final_gather},
 }};
 
 }  // namespace
