@@ -29,7 +29,6 @@ double integral(SurfaceDensity const& d) {
 
 }  // namespace
 
-// Fails if the disc's part is taken for the whole disc, or for the square.
 TEST_CASE("the part of a disc in the square has its closed forms", "[unit]") {
     double const r = 0.25;
     CHECK(disc_area_in_square({0.5, 0.5}, r) == Approx(pi_double * r * r).epsilon(1e-12));
@@ -41,7 +40,6 @@ TEST_CASE("the part of a disc in the square has its closed forms", "[unit]") {
     CHECK(disc_area_in_square({d, 0.5}, r) == Approx(pi_double * r * r - cut).epsilon(1e-12));
 }
 
-// Fails if the polynomials are not of unit norm, or the cells' area is left out.
 TEST_CASE("a histogram and a series keep the number of points", "[unit]") {
     auto const points = even_points(500, 1);
     CHECK(integral(HistogramDensity(points, 8)) == Approx(1).epsilon(1e-9));

@@ -77,8 +77,8 @@ TEST_CASE("photon methods see the furnace's 2", "[law]") {
     }
 }
 
-// Fails where a kind of path is missing or counted twice (caustics in both maps: + 6 % with the glass), where the
-// camera's dispersion is weighed apart from the photons', and where a final gather stops at glass and mirrors.
+// Each kind of path is in one of lamps, caustic and indirect map, also where camera and photon are both dispersed; a
+// final gather goes on through glass and mirrors.
 TEST_CASE("photon methods are near path", "[law]") {
     for (auto const& things : {diffuse_things, glass_things}) {
         auto const scene = test::scene_from(scene_text(things));

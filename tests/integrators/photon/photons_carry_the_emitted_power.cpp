@@ -46,8 +46,8 @@ double power_of(PhotonList const& list) {
 
 }  // namespace
 
-// Fails for pi too much at emission, for a bounce without cos / p = pi, and for a roulette whose survivors are not
-// divided by its probability (all defects of [Picardello 2022, ch. 11]).
+// What [Picardello 2022, ch. 11] gets wrong would show: pi twice at emission, a bounce without cos / p, and a roulette
+// whose survivors are not divided by its probability.
 TEST_CASE("number and power of photons in a closed room have their closed forms", "[law]") {
     for (double const rho : {0.3, 0.6, 0.9}) {
         auto const scene = test::scene_from(room(rho));
@@ -66,8 +66,7 @@ TEST_CASE("number and power of photons in a closed room have their closed forms"
     }
 }
 
-// A clear sphere of glass takes nothing and gives nothing, whichever way photons come: fails where power is scaled as
-// radiance is at a boundary, by (n_v / n_w)^2, and for a photon that is stored in both maps.
+// A clear sphere of glass takes nothing and gives nothing, whichever way photons come, and no photon is in both maps.
 TEST_CASE("glass in a closed room keeps the power of photons", "[law]") {
     constexpr double rho = 0.6;
     auto const scene = test::scene_from(room(
@@ -83,8 +82,8 @@ TEST_CASE("glass in a closed room keeps the power of photons", "[law]") {
     CHECK(indirect == Approx(emitted * rho / (1 - rho)).margin(5 * error * emitted));
 }
 
-// Photons are a function of their numbers: fails for a list in the order in which threads finish.
-TEST_CASE("photons are the same for any number of threads", "[law]") {
+// Photons are a function of their numbers.
+TEST_CASE("photons are the same whenever they are emitted", "[law]") {
     auto const scene = test::scene_from(room(0.5));
     PhotonHarvest const a = harvest_of(*scene, 7), b = harvest_of(*scene, 7);
     REQUIRE(a.indirect.size() == b.indirect.size());
