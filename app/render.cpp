@@ -225,15 +225,15 @@ void print_summary(RenderReport const& r, Film const& film, std::filesystem::pat
                total(film.rejected()), exr.string());
 }
 
-RenderReport sampled(Scene const& scene, RenderPlan const& plan, Integrator const& integrator,
-                     RenderSettings const& settings, Checkpoint& state) {
+RenderReport sampled(Scene const& scene, RenderPlan const& plan, Integrator& integrator, RenderSettings const& settings,
+                     Checkpoint& state) {
     if (state.films.size() == 1) return render(scene, plan, integrator, settings, state.films.front());
     return render_adaptively(scene, plan, integrator, settings, settings.stop_at, state.films, state.round);
 }
 
-// Splats are in no checkpoint, belong to the whole picture, and have no pixel's number of samples.
+// Light paths are in no checkpoint, belong to the whole picture, and have no pixel's number of samples.
 void check_goes_with(Integrator const& integrator, std::string const& name, Options const& o) {
-    if (!integrator.splats()) return;
+    if (!integrator.shares_light_paths()) return;
     for (auto const& [option, given] :
          {std::pair("--adaptive", o.adaptive), {"--checkpoint", !o.checkpoint.empty()}, {"--crop", !o.crop.empty()}})
         if (given)

@@ -10,6 +10,7 @@
 #include "integrators/choice.h"
 #include "integrators/light_tracing.h"
 #include "integrators/path.h"
+#include "integrators/photon/photon_integrators.h"
 #include "integrators/radiosity/radiosity.h"
 #include "integrators/recursive.h"
 
@@ -17,7 +18,7 @@ namespace iride {
 
 namespace {
 
-constexpr std::array<IntegratorEntry, 10> table{{
+constexpr std::array<IntegratorEntry, 13> table{{
     {"path", "path tracing: light sampling and scattering, unbiased", make_path, true},
     {"reference_path", "path tracing by scattering alone: slow, the oracle of the others", make_reference_path, true},
     {"auto", "path or bidirectional, whichever suits the scene (`iride plan` says why)", make_auto},
@@ -35,6 +36,10 @@ constexpr std::array<IntegratorEntry, 10> table{{
      "how much of a sky each place would see; sampling= uniform, cosine; distance=", make_ambient_occlusion},
     {"radiosity", "diffuse surfaces cut into patches, solved for every wavelength: no noise",
      radiosity::make_radiosity},
+    {"photon-map", "one photon map, nearest photons: caustics at once, biased", make_photon_map},
+    {"progressive-photon", "photon maps of shrinking radius, pass by pass: unbiased in the limit",
+     make_progressive_photon},
+    {"final-gather", "photons or radiosity, gathered one scattering away: smooth", make_final_gather},
 }};
 
 void refuse_media(IntegratorEntry const& entry, Scene const& scene, RenderPlan const& plan) {
