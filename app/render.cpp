@@ -28,7 +28,7 @@ namespace {
 
 struct Options {
     std::string scene, output, integrator, size, crop, error, colourspace = "ACEScg", view, ocio, preview, report,
-                                                              checkpoint, aov, solution;
+                                                              checkpoint, aov, solution, sampler;
     int spp = 0, threads = 0;
     double seconds = 0, checkpoint_seconds = 30;
     std::int64_t seed = -1;
@@ -169,7 +169,7 @@ RenderSettings settings_of(Options const& o, Scene const& scene) {
     s.first_sample = o.first_sample;
     if (!o.checkpoint.empty()) s.pass_seconds = o.checkpoint_seconds;
     s.seed = o.seed >= 0 ? static_cast<std::uint64_t>(o.seed) : scene.render.seed;
-    s.sampler = scene.render.sampler;
+    s.sampler = o.sampler.empty() ? scene.render.sampler : *sampler_of(o.sampler);
     s.threads = o.threads;
     s.interrupted = &interrupted;
     return s;
@@ -225,10 +225,19 @@ void print_summary(RenderReport const& r, Film const& film, std::filesystem::pat
                total(film.rejected()), exr.string());
 }
 
-RenderReport sampled(Scene const& scene, RenderPlan const& plan, Integrator const& integrator,
-                     RenderSettings const& settings, Checkpoint& state) {
+RenderReport sampled(Scene const& scene, RenderPlan const& plan, Integrator& integrator, RenderSettings const& settings,
+                     Checkpoint& state) {
     if (state.films.size() == 1) return render(scene, plan, integrator, settings, state.films.front());
     return render_adaptively(scene, plan, integrator, settings, settings.stop_at, state.films, state.round);
+}
+
+// Light paths are in no checkpoint, belong to the whole picture, and have no pixel's number of samples.
+void check_goes_with(Integrator const& integrator, std::string const& name, Options const& o) {
+    if (!integrator.shares_light_paths()) return;
+    for (auto const& [option, given] :
+         {std::pair("--adaptive", o.adaptive), {"--checkpoint", !o.checkpoint.empty()}, {"--crop", !o.crop.empty()}})
+        if (given)
+            fail(option, fmt::format("does not go with integrator '{}', whose pixels share their light paths", name));
 }
 
 int run_render(Options const& o) {
@@ -241,25 +250,22 @@ int run_render(Options const& o) {
     std::optional<ColourTransform> display;
     if (!out.preview.empty()) display = ColourConfig(o.ocio).to_display("", o.view);
     RenderPlan const plan = make_plan_without(o.plan_disabled, *scene);
-    std::string const name = o.integrator.empty() ? scene->render.integrator : o.integrator;
+    IntegratorChoice const choice = o.integrator.empty() ? scene->render.integrator : parse_integrator(o.integrator);
+    std::string const& name = choice.name;
     if (!o.solution.empty() && name != "radiosity")
         fail("--solution", fmt::format("found integrator '{}', allowed: radiosity", name));
-    auto const integrator = o.solution.empty() ? make_integrator(name, *scene, plan)
+    auto const integrator = o.solution.empty() ? make_integrator(choice, *scene, plan)
                                                : radiosity::show(radiosity::load_solution(o.solution, *scene));
+    check_goes_with(*integrator, name, o);
     std::vector<std::string> const layers = parse_layers(o.aov, name, o.adaptive);
     if (!o.quiet)
-        for (std::string const& remark : scene->remarks) fmt::print(stderr, "note: {}\n", remark);
+        for (auto const& remarks : {scene->remarks, integrator->remarks()})
+            for (std::string const& remark : remarks) fmt::print(stderr, "note: {}\n", remark);
 
     RenderSettings settings = settings_of(o, *scene);
-    ExrSettings const of{o.colourspace,
-                         scene->film.white,
-                         scene->film.exposure,
-                         scene->film.half,
-                         scene->name,
-                         scene->hash,
-                         name,
-                         settings.seed,
-                         scene->render.sampler == SamplerKind::sobol ? "sobol" : "independent",
+    ExrSettings const of{o.colourspace,    scene->film.white, scene->film.exposure,
+                         scene->film.half, scene->name,       scene->hash,
+                         choice.text(),    settings.seed,     sampler_names[static_cast<std::size_t>(settings.sampler)],
                          o.first_sample};
     Saving saving(o, of, o.adaptive ? make_adaptive_state(*scene, crop) : AdaptiveState{{make_film(*scene, crop)}, 0});
     std::signal(SIGINT, on_interrupt);
@@ -276,7 +282,7 @@ int run_render(Options const& o) {
     Film const film = picture_of(saving.state().films);
     write_exr(film, of, out.exr, make_layers(layers, *scene, plan, name, settings, film, of));
     if (display) write_preview(film, scene->film.white, scene->film.exposure, *display, out.preview);
-    if (!out.report.empty()) write_report(out.report, *scene, name, report, film);
+    if (!out.report.empty()) write_report(out.report, *scene, choice.text(), report, film);
     if (!o.quiet) print_summary(report, film, out.exr);
     if (report.interrupted) {
         fmt::print(stderr, "iride: interrupted; what was finished is saved\n");
@@ -299,7 +305,7 @@ Command add_render(CLI::App& app) {
     parser->add_option("-o,--output", o->output, "EXR file to write (default: the scene's name in this folder)");
     std::string integrators;
     for (IntegratorEntry const& e : integrator_entries()) integrators += fmt::format("\n  {}: {}", e.name, e.summary);
-    parser->add_option("--integrator", o->integrator, "how light is found:" + integrators);
+    parser->add_option("--integrator", o->integrator, "how light is found, NAME or NAME:key=value,...:" + integrators);
     auto* const spp = parser->add_option("--spp", o->spp, "samples per pixel")->check(CLI::Range(1, 1 << 24));
     auto* const seconds =
         parser->add_option("--time", o->seconds, "stop after the pass that ends beyond this many seconds")
@@ -326,6 +332,8 @@ Command add_render(CLI::App& app) {
                      "seconds between two of them, or a pass if that is longer")
         ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
+    parser->add_option("--sampler", o->sampler, "random numbers: sobol (Owen-scrambled), stratified or independent")
+        ->check(CLI::IsMember(std::vector<std::string>(sampler_names.begin(), sampler_names.end())));
     parser->add_option("--threads", o->threads, "threads (default: all)")->check(CLI::Range(1, 1024));
     parser->add_option("--size", o->size, "WIDTHxHEIGHT in pixels, instead of the scene's");
     parser

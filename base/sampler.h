@@ -2,10 +2,13 @@
 // The random numbers of one camera path: dimension after dimension, each a function of (seed, pixel, sample,
 // dimension). They come in blocks of four pairs, made together in one register: a block for the camera, one for each
 // vertex of the path. Each pair is an independently scrambled and shuffled (0,2)-sequence over the samples of its pixel
-// ("padding"), or, with SamplerKind::independent, plain hashes.
+// ("padding"); with SamplerKind::stratified, progressive jittered points; with independent, plain hashes.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <optional>
+#include <string_view>
 
 #include "base/random.h"
 #include "base/sobol.h"
@@ -16,7 +19,13 @@ struct Sample2 {
     float x, y;
 };
 
-enum class SamplerKind { sobol, independent };
+enum class SamplerKind { sobol, independent, stratified };
+inline constexpr std::array<char const*, 3> sampler_names{"sobol", "independent", "stratified"};
+constexpr std::optional<SamplerKind> sampler_of(std::string_view name) {
+    for (std::size_t i = 0; i < sampler_names.size(); ++i)
+        if (name == sampler_names[i]) return static_cast<SamplerKind>(i);
+    return std::nullopt;
+}
 
 class Sampler {
   public:
@@ -51,16 +60,18 @@ class Sampler {
     void make_block(std::uint32_t block) {
         block_ = block;
         used_ = 0;
-        bool const stratified = kind_ == SamplerKind::sobol;
+        bool const by_index = kind_ != SamplerKind::independent;
         std::uint64_t const base =
-            stratified ? mix_bits(key_ + 0x9e3779b97f4a7c15ull * (block + 1ull)) : hash_words(key_, sample_, block);
+            by_index ? mix_bits(key_ + 0x9e3779b97f4a7c15ull * (block + 1ull)) : hash_words(key_, sample_, block);
         auto const low = static_cast<std::uint32_t>(base), high = static_cast<std::uint32_t>(base >> 32);
         SobolWords const seeds = spread(low, 0);
         SobolWords words;
-        if (stratified) {
+        if (by_index) {
             SobolWords const once = spread(high, 8);
             constexpr SobolWords twice{0, 1, 2, 3, 0, 1, 2, 3};
-            words = scrambled_sobol(sample_, __builtin_shuffle(once, twice), seeds);
+            SobolWords const shuffle = __builtin_shuffle(once, twice);
+            words = kind_ == SamplerKind::sobol ? scrambled_sobol(sample_, shuffle, seeds)
+                                                : jittered(sample_, shuffle, seeds);
         } else {
             words = seeds ^ spread(high, 8);
             words *= 0x735a2d97u;

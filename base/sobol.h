@@ -58,4 +58,24 @@ inline SobolWords scrambled_sobol(std::uint32_t index, SobolWords shuffle, Sobol
     return reverse_bits(scramble_reversed(reversed, scramble));
 }
 
+// The even bits of each word, moved together.
+template <class Word>
+constexpr Word even_bits(Word x) {
+    x &= 0x55555555u;
+    x = (x | (x >> 1)) & 0x33333333u;
+    x = (x | (x >> 2)) & 0x0f0f0f0fu;
+    x = (x | (x >> 4)) & 0x00ff00ffu;
+    return (x | (x >> 8)) & 0x0000ffffu;
+}
+
+// Progressive jittered points, seeds as above: of every aligned block of 4^k indices one lies in each of the 4^k equal
+// squares, and anywhere in it. The shuffled index, reversed, is the Morton number of the square. [Christensen 2018]
+inline SobolWords jittered(std::uint32_t index, SobolWords shuffle, SobolWords scramble) {
+    SobolWords const i = scramble_reversed(SobolWords{} + reverse_bits(index), shuffle);  // reversed: first digit first
+    constexpr std::uint32_t all = ~0u;
+    constexpr SobolWords is_y{0, 0, 0, 0, all, all, all, all};
+    SobolWords const square = (even_bits(i >> 1) & ~is_y) | (even_bits(i) & is_y);
+    return reverse_bits(scramble_reversed(reverse_bits(square << 16), scramble));
+}
+
 }  // namespace iride

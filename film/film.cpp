@@ -54,9 +54,7 @@ Film::Response Film::response(double nm) const {
                     0};
 }
 
-void Film::add(int x, int y, Wavelengths const& wavelengths, Radiance const& radiance) {
-    FilmPixel& pixel = pixels_.at(x, y);
-    auto const power = radiance / wavelengths.density;  // L_i / p_i
+Xyz Film::colour_of(Wavelengths const& wavelengths, Power const& power) const {
     Response total{};
     for (int i = 0; i < lane_count; ++i) {
         if (exact_observer_) {
@@ -66,26 +64,40 @@ void Film::add(int x, int y, Wavelengths const& wavelengths, Radiance const& rad
             total += (cell[0] + wavelengths.fraction[i] * (cell[1] - cell[0])) * power[i];
         }
     }
-    std::array<double, 3> value;
-    for (std::size_t c = 0; c < 3; ++c) value[c] = static_cast<double>(total[c]) / lane_count;
+    auto const component = [&](int c) { return static_cast<double>(total[c]) / lane_count; };
+    return {component(0), component(1), component(2)};
+}
+
+void Film::add(int x, int y, Wavelengths const& wavelengths, Radiance const& radiance) {
+    FilmPixel& pixel = pixels_.at(x, y);
+    Power const power = radiance / wavelengths.density;
+    Xyz const colour = colour_of(wavelengths, power);
+    std::array<double, 3> const value{colour.X, colour.Y, colour.Z};
     for (std::size_t c = 0; c < 3; ++c) {
         pixel.sum[c] += value[c];
         pixel.sum_of_squares[c] += value[c] * value[c];
         pixel.sum_of_products[c] += value[c] * value[(c + 1) % 3];
     }
     ++pixel.count;
-    if (bands_) add_to_bands(x, y, wavelengths, power);
+    if (!bands_) return;
+    double* const sums = band_sum_.data() + band_offset(x, y);
+    for_bands(wavelengths, power, [&](int band, double v) { sums[band] += v; });
 }
 
-void Film::add_to_bands(int x, int y, Wavelengths const& wavelengths,
-                        Sampled<dim::spectral_radiance / dim::per_nanometre> power) {
-    double* const sums = band_sum_.data() + band_offset(x, y);
+void Film::splat(int x, int y, Wavelengths const& wavelengths, Radiance const& radiance) {
+    Power const power = radiance / wavelengths.density;
+    if (!is_finite(radiance) || !splats_->add(x, y, colour_of(wavelengths, power))) return splats_->reject();
+    if (bands_) for_bands(wavelengths, power, [&](int band, double v) { splats_->add_to_band(x, y, band, v); });
+}
+
+template <class Add>
+void Film::for_bands(Wavelengths const& wavelengths, Power const& power, Add&& add) const {
     double const width = bands_->width_nm();
     for (int i = 0; i < lane_count; ++i) {
         double const place = (static_cast<double>(wavelengths.nm[i]) - bands_->range.min_nm) / width;
         if (place < 0 || place > bands_->count) continue;
         int const band = std::min(static_cast<int>(place), bands_->count - 1);
-        sums[band] += static_cast<double>(power[i]) / (lane_count * width);
+        add(band, static_cast<double>(power[i]) / (lane_count * width));
     }
 }
 
@@ -143,8 +155,9 @@ std::size_t Film::band_offset(int x, int y) const {
 
 Xyz Film::mean(int x, int y) const {
     FilmPixel const& p = pixels_.at(x, y);
-    if (p.count == 0) return {};
-    return {p.sum[0] / p.count, p.sum[1] / p.count, p.sum[2] / p.count};
+    Xyz const light = splats_ ? splats_->mean(x, y) : Xyz{};
+    if (p.count == 0) return light;
+    return {p.sum[0] / p.count + light.X, p.sum[1] / p.count + light.Y, p.sum[2] / p.count + light.Z};
 }
 
 Xyz Film::variance(int x, int y) const {
@@ -156,7 +169,8 @@ Xyz Film::variance(int x, int y) const {
         double const mean = p.sum[c] / n;
         return std::max(0.0, p.sum_of_squares[c] / n - mean * mean) / (n - 1);
     };
-    return {of(0), of(1), of(2)};
+    Xyz const light = splats_ ? splats_->variance(x, y) : Xyz{};
+    return {of(0) + light.X, of(1) + light.Y, of(2) + light.Z};
 }
 
 MatrixDouble Film::covariance(int x, int y) const {
@@ -176,13 +190,15 @@ MatrixDouble Film::covariance(int x, int y) const {
 
 double Film::band(int x, int y, int band) const {
     std::uint32_t const count = pixels_.at(x, y).count;
-    return count > 0 ? band_sum_[band_offset(x, y) + static_cast<std::size_t>(band)] / count : 0;
+    double const light = splats_ ? splats_->band(x, y, band) : 0;
+    return (count > 0 ? band_sum_[band_offset(x, y) + static_cast<std::size_t>(band)] / count : 0) + light;
 }
 
 std::array<std::uint64_t, rejection_count> Film::rejected() const {
     std::array<std::uint64_t, rejection_count> total{};
     for (FilmPixel const& p : pixels_.pixel)
         for (std::size_t c = 0; c < total.size(); ++c) total[c] += p.rejected[c];
+    if (splats_) total[static_cast<std::size_t>(Rejection::not_finite)] += splats_->rejected();
     return total;
 }
 

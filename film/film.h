@@ -17,6 +17,7 @@
 #include "base/vector.h"
 #include "colour/observer.h"
 #include "film/image.h"
+#include "film/splats.h"
 #include "spectral/sampled.h"
 #include "spectral/wavelengths.h"
 
@@ -67,6 +68,10 @@ class Film {
 
     // Add one sample to pixel (x, y). Calls for different pixels may run at the same time.
     void add(int x, int y, Wavelengths const& wavelengths, Radiance const& radiance);
+    // Light paths add to any pixel, from any thread, once there is a layer for it; means and variances then include it.
+    void add_splat_layer() { splats_.emplace(width(), height(), bands_ ? bands_->count : 0); }
+    void splat(int x, int y, Wavelengths const& wavelengths, Radiance const& radiance);
+    void count_light_path() { splats_->count_path(); }
     // Count a sample that is dropped; the pixel's mean is over the samples added.
     void reject(int x, int y, Rejection cause);
     // Add the sums of another film of the same picture, wherever in it that film lies inside this one.
@@ -104,11 +109,14 @@ class Film {
     double relative_error() const;
 
   private:
+    using Power = Sampled<dim::spectral_radiance / dim::per_nanometre>;      // L_i / p_i
     using Response = float __attribute__((vector_size(4 * sizeof(float))));  // to X, Y, Z; the 4th is 0
 
     Response response(double nm) const;
-    void add_to_bands(int x, int y, Wavelengths const& wavelengths,
-                      Sampled<dim::spectral_radiance / dim::per_nanometre> power);
+    Xyz colour_of(Wavelengths const& wavelengths, Power const& power) const;
+    // add(band, value) for each lane that lies in one.
+    template <class Add>
+    void for_bands(Wavelengths const& wavelengths, Power const& power, Add&& add) const;
     std::size_t band_offset(int x, int y) const;
 
     Image<FilmPixel> pixels_;
@@ -118,6 +126,7 @@ class Film {
     Observer const* observer_;
     std::optional<Bands> bands_;
     bool exact_observer_;  // an observer of steps (bands of a sensor) is not linear between whole nanometres
+    std::optional<Splats> splats_;
 };
 
 }  // namespace iride

@@ -79,7 +79,7 @@ class Allocation {
 
 class Rounds {
   public:
-    Rounds(Scene const& scene, RenderPlan const& plan, Integrator const& integrator, RenderSettings const& settings,
+    Rounds(Scene const& scene, RenderPlan const& plan, Integrator& integrator, RenderSettings const& settings,
            std::vector<Film>& films)
         : scene_(scene), plan_(plan), integrator_(integrator), settings_(settings), films_(films) {}
 
@@ -131,7 +131,7 @@ class Rounds {
 
     Scene const& scene_;
     RenderPlan const& plan_;
-    Integrator const& integrator_;
+    Integrator& integrator_;
     RenderSettings const& settings_;
     std::vector<Film>& films_;
     RenderReport report_;
@@ -144,7 +144,7 @@ AdaptiveState make_adaptive_state(Scene const& scene, std::optional<Crop> const&
     return {std::vector<Film>(4, make_film(scene, crop)), 0};
 }
 
-RenderReport render_adaptively(Scene const& scene, RenderPlan const& plan, Integrator const& integrator,
+RenderReport render_adaptively(Scene const& scene, RenderPlan const& plan, Integrator& integrator,
                                RenderSettings const& settings, std::optional<ErrorTarget> const& target,
                                std::vector<Film>& films, int& round) {
     Rounds rounds(scene, plan, integrator, settings, films);

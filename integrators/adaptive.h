@@ -28,7 +28,7 @@ AdaptiveState make_adaptive_state(Scene const& scene, std::optional<Crop> const&
 
 // Until the target is reached (or the time of `settings` is over, or settings.spp as a mean over pixels is spent). Goes
 // on from films and round, which may be of any moment: the rest then comes out in the same bits.
-RenderReport render_adaptively(Scene const& scene, RenderPlan const& plan, Integrator const& integrator,
+RenderReport render_adaptively(Scene const& scene, RenderPlan const& plan, Integrator& integrator,
                                RenderSettings const& settings, std::optional<ErrorTarget> const& target,
                                std::vector<Film>& films, int& round);
 

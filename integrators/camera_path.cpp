@@ -18,6 +18,7 @@ PathStarter::PathStarter(Scene const& scene, RenderPlan const& plan, int width, 
       filter_radius_(scene.film.filter_radius),
       cone_(camera_.pixel_cone()),
       width_(width),
+      height_(height),
       kind_(kind),
       seed_(seed) {
     cone_.width *= texture_share;
@@ -33,6 +34,7 @@ void PathStarter::start(int x, int y, std::uint32_t sample, CameraPath& path) co
     path.cone = cone_;
     path.radiance = Radiance();
     path.complete = true;
+    path.splats.clear();
 }
 
 Sample2 PathStarter::place_in_pixel(Sample2 u) const {
@@ -45,6 +47,18 @@ Sample2 PathStarter::place_in_pixel(Sample2 u) const {
             break;
     }
     return {sample_box(u.x, filter_radius_), sample_box(u.y, filter_radius_)};
+}
+
+float PathStarter::filter_at(Sample2 d) const {
+    switch (filter_) {
+        case FilterKind::triangle:
+            return triangle_density(d.x, filter_radius_) * triangle_density(d.y, filter_radius_);
+        case FilterKind::gaussian:
+            return gaussian_density(d, filter_radius_);
+        case FilterKind::box:
+            break;
+    }
+    return box_density(d.x, filter_radius_) * box_density(d.y, filter_radius_);
 }
 
 namespace {

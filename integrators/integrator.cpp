@@ -5,18 +5,41 @@
 
 #include <array>
 
+#include "integrators/ambient_occlusion.h"
+#include "integrators/bidirectional.h"
+#include "integrators/choice.h"
+#include "integrators/light_tracing.h"
 #include "integrators/path.h"
+#include "integrators/photon/photon_integrators.h"
 #include "integrators/radiosity/radiosity.h"
+#include "integrators/recursive.h"
 
 namespace iride {
 
 namespace {
 
-constexpr std::array<IntegratorEntry, 3> table{{
+constexpr std::array<IntegratorEntry, 13> table{{
     {"path", "path tracing: light sampling and scattering, unbiased", make_path, true},
     {"reference_path", "path tracing by scattering alone: slow, the oracle of the others", make_reference_path, true},
+    {"auto", "path or bidirectional, whichever suits the scene (`iride plan` says why)", make_auto},
+    {"light-tracing", "paths from the lights, shown to the camera: caustics, but no mirror images", make_light_tracing},
+    {"bidirectional", "paths from camera and light, joined in every way: unbiased, caustics and mirror images",
+     make_bidirectional},
+    {"bidirectional-power", "the same, weighed by the power heuristic", make_bidirectional_power},
+    {"direct",
+     "lamps and what they light without a stop; strategy= hemisphere, cosine, bsdf, area, solid-angle, mis; "
+     "lights= uniform, power, tree, all; samples=",
+     make_direct},
+    {"recursive", "Whitted's: chains of mirrors and glass, direct light at their ends; generations=, splits=, lights=",
+     make_recursive},
+    {"ambient-occlusion",
+     "how much of a sky each place would see; sampling= uniform, cosine; distance=", make_ambient_occlusion},
     {"radiosity", "diffuse surfaces cut into patches, solved for every wavelength: no noise",
      radiosity::make_radiosity},
+    {"photon-map", "one photon map, nearest photons: caustics at once, biased", make_photon_map},
+    {"progressive-photon", "photon maps of shrinking radius, pass by pass: unbiased in the limit",
+     make_progressive_photon},
+    {"final-gather", "photons or radiosity, gathered one scattering away: smooth", make_final_gather},
 }};
 
 void refuse_media(IntegratorEntry const& entry, Scene const& scene, RenderPlan const& plan) {
@@ -34,16 +57,24 @@ void refuse_media(IntegratorEntry const& entry, Scene const& scene, RenderPlan c
 
 std::span<IntegratorEntry const> integrator_entries() { return table; }
 
-std::unique_ptr<Integrator> make_integrator(std::string const& name, Scene const& scene, RenderPlan const& plan) {
+std::unique_ptr<Integrator> make_integrator(IntegratorChoice const& choice, Scene const& scene,
+                                            RenderPlan const& plan) {
     std::vector<std::string> names;
     for (IntegratorEntry const& e : table) {
-        if (name == e.name) {
-            refuse_media(e, scene, plan);
-            return e.make(scene, plan);
-        }
         names.emplace_back(e.name);
+        if (choice.name != e.name) continue;
+        refuse_media(e, scene, plan);
+        IntegratorOptions options(choice);
+        auto integrator = e.make(scene, plan, options);
+        options.finish();
+        return integrator;
     }
-    throw InputError({}, "integrator", fmt::format("unknown integrator '{}'{}", name, suggestion(name, names)));
+    throw InputError({choice.file.string(), choice.line, choice.column}, choice.key_path,
+                     fmt::format("unknown integrator '{}'{}", choice.name, suggestion(choice.name, names)));
+}
+
+std::unique_ptr<Integrator> make_integrator(std::string const& text, Scene const& scene, RenderPlan const& plan) {
+    return make_integrator(parse_integrator(text), scene, plan);
 }
 
 }  // namespace iride

@@ -1,36 +1,57 @@
 // SPDX-License-Identifier: Apache-2.0
 // An integrator estimates the spectral radiance that arrives along rays, several at a time. It is pure: no camera, no
-// film, no state.
+// film, and no state but what prepare() makes for a pass.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
 
 #include "integrators/camera_path.h"
+#include "integrators/integrator_options.h"
 
 namespace iride {
 
 // The most paths that are followed together.
 inline constexpr int batch_size = 64;
 
+// Samples [first, last) of every pixel.
+struct SamplePass {
+    std::uint64_t seed;
+    std::uint32_t first, last;
+};
+
 class Integrator {
   public:
     virtual ~Integrator() = default;
+    // Called before each pass, by one thread, for what its paths share: a function of seed and samples alone.
+    virtual void prepare(Scene const&, SamplePass const&, RayStatistics&) {}
+    // No pass crosses a multiple of this many samples.
+    virtual int samples_together() const { return std::numeric_limits<int>::max(); }
     // Follow at most batch_size paths, each on its own: what a path brings does not depend on those beside it.
     virtual void follow(Scene const& scene, std::span<CameraPath> paths, RayStatistics& statistics) const = 0;
+    // Whether a light path goes with each camera path, and leaves splats.
+    virtual bool splats() const { return false; }
+    // Whether pixels or their samples share light paths: then they cannot be rendered apart.
+    virtual bool shares_light_paths() const { return splats(); }
+    // What the user is told before the first path, such as which light will be missing.
+    virtual std::vector<std::string> remarks() const { return {}; }
 };
 
 struct IntegratorEntry {
     char const* name;
     char const* summary;
-    std::unique_ptr<Integrator> (*make)(Scene const&, RenderPlan const&);
+    // Asks all its options, calls options.finish() if it then works long, and says what scene it cannot do.
+    std::unique_ptr<Integrator> (*make)(Scene const&, RenderPlan const&, IntegratorOptions& options);
     bool through_media = false;  // follows light where a medium scatters, or fills the space between all bodies
 };
 std::span<IntegratorEntry const> integrator_entries();
 // What an integrator works out before the first path is done here. Throws InputError with the nearest name.
-std::unique_ptr<Integrator> make_integrator(std::string const& name, Scene const& scene, RenderPlan const& plan);
+std::unique_ptr<Integrator> make_integrator(IntegratorChoice const& choice, Scene const& scene, RenderPlan const& plan);
+// The same of NAME[:key=value,...].
+std::unique_ptr<Integrator> make_integrator(std::string const& text, Scene const& scene, RenderPlan const& plan);
 
 // A path that scatters this often in a scene without absorption would never end: it is given up and counted.
 inline constexpr int longest_path = 10000;

@@ -55,7 +55,7 @@ VertexNumbers numbers_of_vertex(Sampler& sampler, int vertex) {
 // How the ray at hand was chosen: what light sampling from there would have had to compete with.
 struct Arrival {
     std::optional<PerSteradian> density;  // p_hero; absent from the camera and after a Dirac lobe
-    Vector from{0, 0, 0};
+    LightReceiver from{};
     float mean_reach_before = 1;
 };
 
@@ -97,8 +97,9 @@ struct Walk {
 template <bool Dispersive, bool Media, bool Scattering = false>
 class Path final : public Integrator {
   public:
-    explicit Path(RenderPlan const& plan)
-        : max_bounces_(plan.max_bounces.value_or(longest_path)),
+    Path(Scene const& scene, RenderPlan const& plan)
+        : selector_(scene.lights, plan.light_selection),
+          max_bounces_(plan.max_bounces.value_or(longest_path)),
           light_sampling_(plan.light_sampling),
           environment_(plan.environment),
           camera_in_(plan.camera_in),
@@ -198,8 +199,14 @@ class Path final : public Integrator {
         return reach + arrival.mean_reach_before * light_density / arrival.density->value;
     }
 
-    float choice_density(Scene const& scene, int light) const {
-        return light_sampling_ ? scene.lights.probability(light) : 0;
+    float choice_density(Arrival const& arrival, int light) const {
+        return light_sampling_ ? selector_.probability(arrival.from, light) : 0;
+    }
+
+    LightReceiver receiver_of(Scene const& scene, Walk const& walk) const {
+        if (walk.is_afloat()) return {walk.place(), Vector(0, 0, 0)};
+        if (selector_.looks_at_receiver()) return receiver(scene, walk.hit, *walk.here);
+        return {walk.hit.point.position, Vector(0, 0, 0)};
     }
 
     // What is emitted where the ray ends, and the surface there; false if the path ends with it.
@@ -230,7 +237,8 @@ class Path final : public Integrator {
         Direction const wi = path.ray.direction;
         for (int e : scene.lights.environments()) {
             Light const& light = scene.lights.light(e);
-            float const p = walk.arrival.density ? choice_density(scene, e) * light.arriving_density(wi).value : 0;
+            float const p =
+                walk.arrival.density ? choice_density(walk.arrival, e) * light.arriving_density(wi).value : 0;
             L += walk.state.weight * light.arriving(wi, path.wavelengths) * (1 / mixture(walk, p));
         }
         return L;
@@ -243,26 +251,27 @@ class Path final : public Integrator {
         if (is_black(Le)) return {};
         float p = 0;
         if (walk.arrival.density)
-            p = choice_density(scene, hit.shape->light) *
-                light.density(walk.arrival.from, hit.point, hit.primitive).value;
+            p = choice_density(walk.arrival, hit.shape->light) *
+                light.density(walk.arrival.from.position, hit.point, hit.primitive).value;
         return walk.state.weight * Le * (1 / mixture(walk, p));
     }
 
     // Choose a light for each vertex that can use one; ask each light for all its samples at a time.
-    static void sample_lights(Scene const& scene, std::span<CameraPath const> paths, Walks& walks, Alive const& alive) {
+    void sample_lights(Scene const& scene, std::span<CameraPath const> paths, Walks& walks, Alive const& alive) const {
         struct Asking {
             std::size_t walk;
-            LightSet::Choice choice;
+            LightSelector::Choice choice;
         };
         std::array<Asking, batch_size> all;
         std::size_t count = 0;
         alive.for_each([&](std::size_t i) {
             walks[i].direct.reset();
-            if (walks[i].is_afloat() || walks[i].here->bsdf.has_density())
-                all[count++] = {i, scene.lights.choose(walks[i].numbers.choices.x)};
+            if (!walks[i].is_afloat() && !walks[i].here->bsdf.has_density()) return;
+            auto const choice = selector_.choose(receiver_of(scene, walks[i]), walks[i].numbers.choices.x);
+            if (choice.light >= 0) all[count++] = {i, choice};
         });
         std::span<Asking> const asking(all.data(), count);
-        if (scene.lights.size() > 1) std::ranges::sort(asking, {}, [](Asking const& a) { return a.choice.index; });
+        if (scene.lights.size() > 1) std::ranges::sort(asking, {}, [](Asking const& a) { return a.choice.light; });
         std::array<LightRequest, batch_size> requests;
         for (std::size_t k = 0; k < count; ++k) {
             std::size_t const i = asking[k].walk;
@@ -271,8 +280,8 @@ class Path final : public Integrator {
             requests[k].wavelengths = &paths[i].wavelengths;
         }
         for (std::size_t first = 0, last; first < count; first = last) {
-            int const light = asking[first].choice.index;
-            for (last = first + 1; last < count && asking[last].choice.index == light;) ++last;
+            int const light = asking[first].choice.light;
+            for (last = first + 1; last < count && asking[last].choice.light == light;) ++last;
             scene.lights.light(light).answer(std::span(requests).subspan(first, last - first));
         }
         for (std::size_t k = 0; k < count; ++k)
@@ -342,7 +351,7 @@ class Path final : public Integrator {
         }
         walk.state.weight *= sample->weight;
         walk.arrival.density = sample->density;
-        walk.arrival.from = walk.hit.point.position;
+        walk.arrival.from = receiver_of(scene, walk);
         if (ray_cones_)
             walk.cone = walk.cone.scattered(walk.hit.distance, sample->density ? &*sample->density : nullptr);
         path.ray = spawn_ray(walk.hit.point, wi);
@@ -355,13 +364,14 @@ class Path final : public Integrator {
         if constexpr (Scattering) {
             HenyeyGreenstein const phase(walk.in.medium().asymmetry, path.ray.direction);
             Direction const wi = phase.sample(walk.numbers.direction);
-            walk.arrival = {phase.density(wi), walk.place(), mean(walk.state.reach)};
+            walk.arrival = {phase.density(wi), {walk.place(), Vector(0, 0, 0)}, mean(walk.state.reach)};
             if (ray_cones_) walk.cone = walk.cone.scattered(walk.afloat->distance, &*walk.arrival.density);
             path.ray = {walk.place(), wi};
         }
         return true;
     }
 
+    LightSelector selector_;
     int max_bounces_;
     bool light_sampling_, environment_;
     std::optional<Surroundings> camera_in_;  // absent: to be found for each path
@@ -370,13 +380,13 @@ class Path final : public Integrator {
 
 }  // namespace
 
-std::unique_ptr<Integrator> make_path(Scene const&, RenderPlan const& plan) {
-    if (plan.scattering) return std::make_unique<Path<true, true, true>>(plan);
+std::unique_ptr<Integrator> make_path(Scene const& scene, RenderPlan const& plan, IntegratorOptions&) {
+    if (plan.scattering) return std::make_unique<Path<true, true, true>>(scene, plan);
     if (plan.media)
-        return plan.dispersion ? std::unique_ptr<Integrator>(std::make_unique<Path<true, true>>(plan))
-                               : std::make_unique<Path<false, true>>(plan);
-    return plan.dispersion ? std::unique_ptr<Integrator>(std::make_unique<Path<true, false>>(plan))
-                           : std::make_unique<Path<false, false>>(plan);
+        return plan.dispersion ? std::unique_ptr<Integrator>(std::make_unique<Path<true, true>>(scene, plan))
+                               : std::make_unique<Path<false, true>>(scene, plan);
+    return plan.dispersion ? std::unique_ptr<Integrator>(std::make_unique<Path<true, false>>(scene, plan))
+                           : std::make_unique<Path<false, false>>(scene, plan);
 }
 
 }  // namespace iride

@@ -13,7 +13,7 @@
 
 namespace iride {
 
-std::unique_ptr<Integrator> make_path(Scene const& scene, RenderPlan const& plan);
-std::unique_ptr<Integrator> make_reference_path(Scene const& scene, RenderPlan const& plan);
+std::unique_ptr<Integrator> make_path(Scene const& scene, RenderPlan const& plan, IntegratorOptions& options);
+std::unique_ptr<Integrator> make_reference_path(Scene const& scene, RenderPlan const& plan, IntegratorOptions& options);
 
 }  // namespace iride

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 
+#include "integrators/choice.h"
+
 namespace iride {
 
 namespace {
@@ -77,6 +79,26 @@ void decide_scattering(Scene const& scene, RenderPlan& plan) {
                                             : "free flights, lamps sampled where they end, in: " + where);
 }
 
+// Which light a surface asks. A tree looks at where the surface is; with few lights that costs more than it saves.
+void decide_light_selection(Scene const& scene, RenderPlan& plan) {
+    int bright = 0, finite = 0;
+    for (int i = 0; i < static_cast<int>(scene.lights.size()); ++i) {
+        if (!(scene.lights.probability(i) > 0)) continue;
+        ++bright;
+        finite += scene.lights.light(i).bounds().has_value() ? 1 : 0;
+    }
+    constexpr int worth_a_tree = 64;
+    bool const tree = finite >= worth_a_tree;
+    bool const choice = plan.light_sampling && bright > 1;
+    plan.light_selection = scene.render.light_selection.value_or(tree ? LightSelection::tree : LightSelection::power);
+    char const* const name = light_selection_names[static_cast<std::size_t>(plan.light_selection)];
+    decided(plan, "light selection", choice,
+            !choice                        ? "there is no choice"
+            : scene.render.light_selection ? fmt::format("{}: the file's wish", name)
+            : tree ? fmt::format("tree: {} lamps, of which each place asks those that may bring it most", finite)
+                   : "power: too few lamps for a tree to pay");
+}
+
 }  // namespace
 
 std::optional<Surroundings> surroundings_of_camera(Scene const& scene) {
@@ -140,7 +162,8 @@ RenderPlan make_plan(Scene const& scene) {
                !lamps                               ? "no light has any power"
                : finite.empty() && !plan.scattering ? "every surface is a mirror, glass or black: lamps are found by "
                                                       "scattering alone"
-                                                    : fmt::format("{} lights, chosen by power", scene.lights.size()));
+                                                    : fmt::format("{} lights", scene.lights.size()));
+    decide_light_selection(scene, plan);
 
     bool const smooth = std::ranges::any_of(scene.shapes, [](Shape const& s) {
         auto const* m = std::get_if<MeshShape>(&s.geometry);
@@ -165,6 +188,8 @@ RenderPlan make_plan(Scene const& scene) {
     decide("bounce limit", plan.max_bounces.has_value(),
            plan.max_bounces ? fmt::format("{} (the file's wish: light beyond is left out)", *plan.max_bounces)
                             : "none: Russian roulette ends paths without bias");
+    AutomaticChoice const choice = choose_integrator(scene, plan);
+    decide("integrator auto", true, choice.name + ": " + choice.reason);
     return plan;
 }
 

@@ -21,6 +21,7 @@ struct RenderPlan {
     bool ray_cones = false;       // a texture is averaged over what a path stands for
     bool observer_alone = false;  // wavelengths are not drawn for the lamps, even where that is quieter
     std::optional<int> max_bounces;
+    LightSelection light_selection = LightSelection::power;
     std::optional<Surroundings> camera_in;  // absent: not the same for all camera rays
 
     struct Decision {

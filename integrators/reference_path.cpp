@@ -116,7 +116,7 @@ class ReferencePath final : public Integrator {
 
 }  // namespace
 
-std::unique_ptr<Integrator> make_reference_path(Scene const&, RenderPlan const& plan) {
+std::unique_ptr<Integrator> make_reference_path(Scene const&, RenderPlan const& plan, IntegratorOptions&) {
     return std::make_unique<ReferencePath>(plan);
 }
 

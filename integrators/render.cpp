@@ -68,6 +68,12 @@ class Batch {
             film_.reject(p.x, p.y, Rejection::negative);
         else
             film_.add(p.x, p.y, path.wavelengths, path.radiance);
+        if (!integrator_.splats() || !path.complete) return;
+        film_.count_light_path();
+        for (Splat const& splat : path.splats)
+            starter_.spread(splat, [&](int x, int y, float weight) {
+                film_.splat(x, y, path.wavelengths, splat.radiance * weight);
+            });
     }
 
     Scene const& scene_;
@@ -131,13 +137,14 @@ class Loop {
 
 // Passes double, so that a time or an error is met closely and the overhead stays small; without either, and with
 // progress shown, sixteenths of the whole.
-int next_pass(RenderSettings const& s, int done, std::optional<double> seconds_per_sample) {
+int next_pass(RenderSettings const& s, int done, int together, std::optional<double> seconds_per_sample) {
     bool const open_ended = s.seconds || s.stop_at;
     int const wanted = open_ended ? std::max(1, done) : std::max(4, s.spp / 16);
     double const in_time = open_ended || !std::isfinite(s.pass_seconds) ? wanted
                            : seconds_per_sample ? std::max(1.0, s.pass_seconds / *seconds_per_sample)
                                                 : 1;
-    return std::min(s.spp - done, in_time < wanted ? static_cast<int>(in_time) : wanted);
+    int const alone = (static_cast<int>(s.first_sample) + done) % together;
+    return std::min({s.spp - done, in_time < wanted ? static_cast<int>(in_time) : wanted, together - alone});
 }
 
 // Samples that every pixel has.
@@ -163,8 +170,9 @@ Film make_film(Scene const& scene, std::optional<Crop> const& crop) {
     return Film(c.x1 - c.x0, c.y1 - c.y0, {c.x0, c.y0, f.width, f.height}, cie1931_2deg(), scene.grid, bands);
 }
 
-RenderReport render(Scene const& scene, RenderPlan const& plan, Integrator const& integrator,
-                    RenderSettings const& settings, Film& film) {
+RenderReport render(Scene const& scene, RenderPlan const& plan, Integrator& integrator, RenderSettings const& settings,
+                    Film& film) {
+    if (integrator.splats()) film.add_splat_layer();
     Loop loop(scene, plan, integrator, settings, film);
     RenderReport report;
     std::uint64_t const paths_before = film.total_samples();
@@ -184,12 +192,16 @@ RenderReport render(Scene const& scene, RenderPlan const& plan, Integrator const
     while (!is_done(settings, film) && !loop.stopped()) {
         std::optional<double> per_sample;
         if (report.spp > before) per_sample = seconds_since(start) / (report.spp - before);
-        int const pass = settings.goals ? 1 : next_pass(settings, report.spp, per_sample);
+        int const pass =
+            settings.goals ? 1 : next_pass(settings, report.spp, integrator.samples_together(), per_sample);
+        auto const first = static_cast<std::uint32_t>(report.spp), last = static_cast<std::uint32_t>(report.spp + pass);
         arena.execute([&] {
+            integrator.prepare(scene, {settings.seed, settings.first_sample + first, settings.first_sample + last},
+                               report.rays);
             tbb::parallel_for(0, loop.tile_count(), [&](int i) {
                 if (loop.stopped()) return;
                 int const tile = settings.reversed_tiles ? loop.tile_count() - 1 - i : i;
-                loop.render_tile(tile, static_cast<std::uint32_t>(report.spp + pass));
+                loop.render_tile(tile, last);
                 tiles_done += static_cast<std::uint64_t>(pass);
                 if (settings.on_progress) settings.on_progress(report.spp, share());
             });
@@ -204,7 +216,7 @@ RenderReport render(Scene const& scene, RenderPlan const& plan, Integrator const
     report.interrupted = loop.stopped();
     report.seconds = seconds_since(start);
     report.paths = film.total_samples() - paths_before;
-    report.rays = totals.rays;
+    report.rays.add(totals.rays);
     if (totals.timed_ticks > 0)
         report.embree_share = static_cast<double>(totals.rays.traced_ticks) / static_cast<double>(totals.timed_ticks);
     return report;

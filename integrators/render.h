@@ -43,7 +43,7 @@ struct RenderReport {
 // The film a scene asks for, of the whole picture or of a part of it.
 Film make_film(Scene const& scene, std::optional<Crop> const& crop = {});
 
-RenderReport render(Scene const& scene, RenderPlan const& plan, Integrator const& integrator,
-                    RenderSettings const& settings, Film& film);
+RenderReport render(Scene const& scene, RenderPlan const& plan, Integrator& integrator, RenderSettings const& settings,
+                    Film& film);
 
 }  // namespace iride

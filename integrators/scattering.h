@@ -74,6 +74,12 @@ inline Radiance emitted_at(Scene const& scene, Hit const& hit, Ray const& ray, W
     return scene.lights.light(hit.shape->light).emitted(hit.point, -ray.direction, wavelengths);
 }
 
+// What lights are chosen for at a vertex: surfaces alike on both sides scatter light to the side it comes from.
+inline LightReceiver receiver(Scene const& scene, Hit const& hit, Interaction const& here) {
+    bool const one_side = scene.material(hit.shape->material).traits.two_sided;
+    return {hit.point.position, one_side ? here.geometric_normal : Direction(0, 0, 0)};
+}
+
 // Russian roulette: go on with probability q = min(1, largest lane of the throughput) and divide by q. Throughput is
 // weight / mean(reach), which does not depend on which lane is the hero. With q >= the albedo of the last scattering
 // the variance is finite (q > rho^2); nothing is cut off. [Arvo 1990]

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/constants.h"
+#include "base/warp.h"
 #include "spectral/spectrum.h"
 
 namespace iride {
@@ -19,6 +20,15 @@ struct EmissionProfile {
     float share(float cosine) const {
         if (!(cosine > cosine_end)) return 0;
         return exponent == 0 ? 1 : std::pow(cosine, exponent);
+    }
+    // A direction about +z drawn with density share(cos) cos / exitance [1/sr].
+    Direction sample(Sample2 u) const {
+        if (is_diffuse()) return to_cosine_hemisphere(u);
+        float const e = exponent + 2, end = std::pow(cosine_end, e);
+        float const cosine = std::pow(1 - u.x * (1 - end), 1 / e);
+        auto const [sine_turn, cosine_turn] = sine_cosine_of_turns(u.y);
+        float const sine = std::sqrt(std::max(0.0f, (1 - cosine) * (1 + cosine)));
+        return {sine * cosine_turn, sine * sine_turn, cosine};
     }
     // Exitance over L: int share(cos) cos = 2 pi (1 - cosine_end^(e + 2)) / (e + 2) [sr].
     double exitance() const {

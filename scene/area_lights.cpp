@@ -19,15 +19,64 @@ class AreaLight : public Light {
     AreaLight(EmitterStrength strength, double area, bool flipped)
         : strength_(std::move(strength)), area_(area), flipped_(flipped) {}
 
+    std::optional<EmissionSample> emit(Ball const& scene, Wavelengths const& wavelengths, Sample2 place,
+                                       Sample2 direction) const override {
+        Place const at = uniform_place(place);
+        Direction normal = flipped_ ? Direction(-at.outward) : at.outward;
+        SurfacePoint from{at.point, normal, normal};
+        if (strength_.emitter.two_sided) {
+            bool const back = direction.x >= 0.5f;
+            direction.x = 2 * direction.x - (back ? 1 : 0);
+            if (back) normal = -normal;
+        }
+        Direction const local = strength_.emitter.profile.sample(direction);
+        float const s = strength_.emitter.share(local.z());
+        if (!(local.z() > 0 && s > 0)) return std::nullopt;
+        Direction const travel = Frame::around(normal).to_world(local);
+        return std::optional<EmissionSample>(std::in_place, from, at.primitive, travel, local.z(),
+                                             emission_density(scene, travel, local.z()),
+                                             strength_.emitter.radiance.at(wavelengths) * s);
+    }
+    EmissionDensity emission_density(Ball const&, Direction const&, float cosine) const override {
+        float const both = strength_.emitter.share(cosine) * std::abs(cosine) /
+                           static_cast<float>(strength_.emitter.profile.exitance() * sides());
+        return {PerSquareMetre(1 / static_cast<float>(area_)), PerSteradian(both)};
+    }
+    LightExtent extent() const override { return LightExtent::area; }
+
     Radiance emitted(SurfacePoint const& on, Direction const& wo, Wavelengths const& wavelengths) const override {
         float const share = strength_.emitter.share(wo.dot(on.geometric_normal));
         return share > 0 ? strength_.emitter.radiance.at(wavelengths) * share : Radiance{};
+    }
+    std::optional<LightSample> sample_by_area(Vector const& from, Wavelengths const& wavelengths,
+                                              Sample2 u) const override {
+        auto const [point, n, primitive] = uniform_place(u);
+        return towards(from, point, n, wavelengths, area_density(static_cast<float>(area_), from, point, n));
     }
     double power(double) const override {
         return strength_.emitter.profile.exitance() * area_ * strength_.luminance * sides();
     }
 
   protected:
+    struct Place {
+        Vector point;
+        Direction outward;
+        std::uint32_t primitive = 0;
+    };
+    // Uniform over the area.
+    virtual Place uniform_place(Sample2 u) const = 0;
+    // `projected`: the largest area seen from anywhere.
+    LightBounds bounds_of(VectorDouble const& lower, VectorDouble const& upper, VectorDouble const& axis,
+                          double normals_rad, double projected) const {
+        return {lower,
+                upper,
+                flipped_ ? VectorDouble(-axis) : axis,
+                normals_rad,
+                std::acos(static_cast<double>(strength_.emitter.profile.cosine_end)),
+                strength_.emitter.two_sided,
+                projected * strength_.luminance};
+    }
+
     int sides() const { return strength_.emitter.two_sided ? 2 : 1; }
 
     // Whether a point of outward normal n may shine along -d.
@@ -47,7 +96,9 @@ class AreaLight : public Light {
         float const distance = d.norm();
         if (!(distance > 0 && density.value > 0 && density.value < infinity)) return;
         float const s = share(d, distance, n);
-        if (s > 0) r.sample.emplace(d / distance, distance, strength_.emitter.radiance.at(*r.wavelengths) * s, density);
+        if (s > 0)
+            r.sample.emplace(d / distance, distance, strength_.emitter.radiance.at(*r.wavelengths) * s, density,
+                             std::abs(facing(d, n)) / distance);
     }
 
     // A point of the surface with its outward normal, found with the given density.
@@ -81,11 +132,7 @@ class SphereLight final : public AreaLight {
           sphere_(sphere) {}
 
     std::optional<LightSample> sample(Vector const& from, Wavelengths const& wavelengths, Sample2 u) const override {
-        if (!outside(from)) {
-            Direction const n = to_sphere(u);
-            Vector const point = sphere_.centre + sphere_.radius * n;
-            return towards(from, point, n, wavelengths, area_density(static_cast<float>(area_), from, point, n));
-        }
+        if (!outside(from)) return sample_by_area(from, wavelengths, u);
         Vector const d = sphere_.centre - from;
         float const distance = d.norm(), height = cone_height(from);
         Direction const wi = Frame::around(d / distance).to_world(to_cone(u, height));
@@ -97,7 +144,14 @@ class SphereLight final : public AreaLight {
         float const s = shines(wi, n) ? share(wi, 1, n) : 0;
         if (s == 0) return std::nullopt;
         return std::optional<LightSample>(std::in_place, wi, (point - from).norm(),
-                                          strength_.emitter.radiance.at(wavelengths) * s, cone_density(height));
+                                          strength_.emitter.radiance.at(wavelengths) * s, cone_density(height),
+                                          std::abs(wi.dot(n)));
+    }
+    std::optional<LightBounds> bounds() const override {
+        VectorDouble const centre = sphere_.centre.cast<double>();
+        double const r = static_cast<double>(sphere_.radius);
+        VectorDouble const reach = VectorDouble::Constant(r);
+        return bounds_of(centre - reach, centre + reach, {0, 0, 1}, pi_double, pi_double * square(r));
     }
     PerSteradian density(Vector const& from, SurfacePoint const& on, std::uint32_t) const override {
         if (outside(from)) return cone_density(cone_height(from));
@@ -105,6 +159,10 @@ class SphereLight final : public AreaLight {
     }
 
   private:
+    Place uniform_place(Sample2 u) const override {
+        Direction const n = to_sphere(u);
+        return {sphere_.centre + sphere_.radius * n, n};
+    }
     // A little clear of the surface, where the cone is a hemisphere and the density no longer helps.
     bool outside(Vector const& from) const {
         return (from - sphere_.centre).squaredNorm() > square(sphere_.radius) * 1.0001f;
@@ -127,7 +185,8 @@ class RectangleLight final : public AreaLight {
     std::optional<LightSample> sample(Vector const& from, Wavelengths const& wavelengths, Sample2 u) const override {
         LightRequest request{from, u, &wavelengths};
         answer({&request, 1});
-        return request.sample;
+        if (!request.sample) return std::nullopt;
+        return *request.sample;
     }
     void answer(std::span<LightRequest> requests) const override {
         for (std::size_t first = 0; first < requests.size(); first += real_lanes)
@@ -139,7 +198,19 @@ class RectangleLight final : public AreaLight {
         return area_density(static_cast<float>(area_), from, on.position, rectangle_.normal);
     }
 
+    std::optional<LightBounds> bounds() const override {
+        VectorDouble const a = rectangle_.corner.cast<double>(), x = (rectangle_.width * rectangle_.x).cast<double>(),
+                           y = (rectangle_.height * rectangle_.y).cast<double>();
+        VectorDouble const zero(0, 0, 0);
+        return bounds_of(a + x.cwiseMin(zero) + y.cwiseMin(zero), a + x.cwiseMax(zero) + y.cwiseMax(zero),
+                         rectangle_.normal.cast<double>(), 0, area_);
+    }
+
   private:
+    Place uniform_place(Sample2 u) const override {
+        return {rectangle_.corner + u.x * rectangle_.width * rectangle_.x + u.y * rectangle_.height * rectangle_.y,
+                rectangle_.normal};
+    }
     // At most eight requests, side by side in registers.
     void answer_eight(std::span<LightRequest> requests) const {
         Real8 x{}, y{}, z{}, u{}, v{};
@@ -162,8 +233,7 @@ class RectangleLight final : public AreaLight {
     }
 
     void sample_area(LightRequest& r) const {
-        Vector const point =
-            rectangle_.corner + r.u.x * rectangle_.width * rectangle_.x + r.u.y * rectangle_.height * rectangle_.y;
+        Vector const point = uniform_place(r.u).point;
         put(r, point - r.from, rectangle_.normal,
             area_density(static_cast<float>(area_), r.from, point, rectangle_.normal));
     }
@@ -188,15 +258,14 @@ class TrianglesLight final : public AreaLight {
         auto const choice = by_area_.sample(u.x);
         Triangle const& t = triangles_[static_cast<std::size_t>(choice.index)];
         Sample2 const v{choice.rest, u.y};
-        Direction const n = (t[1] - t[0]).cross(t[2] - t[0]).normalized();
+        Direction const n = normal_of(t);
         Vector point;
         if (solid_angle(t, from) > smallest_solid_angle) {
             Direction const wi = sample_spherical_triangle((t[0] - from).normalized(), (t[1] - from).normalized(),
                                                            (t[2] - from).normalized(), v);
             point = from + wi * ((t[0] - from).dot(n) / wi.dot(n));
         } else {
-            Vector2 const b = to_triangle(v);
-            point = t[0] + b.x() * (t[1] - t[0]) + b.y() * (t[2] - t[0]);
+            point = in_triangle(t, v);
         }
         return towards(from, point, n, wavelengths, triangle_density(t, from, point, n) * choice.probability);
     }
@@ -206,7 +275,35 @@ class TrianglesLight final : public AreaLight {
                by_area_.probability(static_cast<int>(i));
     }
 
+    // Around the mean normal; of a closed mesh a quarter of the area is seen.
+    std::optional<LightBounds> bounds() const override {
+        VectorDouble lower = triangles_[0][0].cast<double>(), upper = lower, sum(0, 0, 0);
+        for (Triangle const& t : triangles_) {
+            sum += area(t) * normal_of(t).cast<double>();
+            for (Vector const& p : t)
+                lower = lower.cwiseMin(p.cast<double>()), upper = upper.cwiseMax(p.cast<double>());
+        }
+        bool const closed = !(sum.norm() > 1e-6 * area_);  // no mean to speak of
+        VectorDouble const axis = closed ? VectorDouble(0, 0, 1) : VectorDouble(sum.normalized());
+        double widest = closed ? pi_double : 0;
+        for (Triangle const& t : triangles_) {
+            VectorDouble const n = normal_of(t).cast<double>();
+            if (area(t) > 0) widest = std::max(widest, std::atan2(axis.cross(n).norm(), axis.dot(n)));
+        }
+        return bounds_of(lower, upper, axis, widest, std::max(sum.norm(), area_ / 4));
+    }
+
   private:
+    static Direction normal_of(Triangle const& t) { return (t[1] - t[0]).cross(t[2] - t[0]).normalized(); }
+    Place uniform_place(Sample2 u) const override {
+        auto const choice = by_area_.sample(u.x);
+        Triangle const& t = triangles_[static_cast<std::size_t>(choice.index)];
+        return {in_triangle(t, {choice.rest, u.y}), normal_of(t), static_cast<std::uint32_t>(choice.index)};
+    }
+    static Vector in_triangle(Triangle const& t, Sample2 u) {
+        Vector2 const b = to_triangle(u);
+        return t[0] + b.x() * (t[1] - t[0]) + b.y() * (t[2] - t[0]);
+    }
     static double area(Triangle const& t) { return 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm(); }
     static float solid_angle(Triangle const& t, Vector const& from) {
         return triangle_solid_angle((t[0] - from).normalized(), (t[1] - from).normalized(), (t[2] - from).normalized());
@@ -231,16 +328,24 @@ class DiscLight final : public AreaLight {
           frame_(Frame::around(disc.normal)) {}
 
     std::optional<LightSample> sample(Vector const& from, Wavelengths const& wavelengths, Sample2 u) const override {
-        Vector2 const d = disc_.radius * to_disc(u);
-        Vector const point = disc_.centre + frame_.to_world({d.x(), d.y(), 0});
-        return towards(from, point, disc_.normal, wavelengths,
-                       area_density(static_cast<float>(area_), from, point, disc_.normal));
+        return sample_by_area(from, wavelengths, u);
     }
     PerSteradian density(Vector const& from, SurfacePoint const& on, std::uint32_t) const override {
         return area_density(static_cast<float>(area_), from, on.position, disc_.normal);
     }
 
+    std::optional<LightBounds> bounds() const override {
+        VectorDouble const n = disc_.normal.cast<double>(), centre = disc_.centre.cast<double>();
+        VectorDouble const reach = static_cast<double>(disc_.radius) * (1 - n.array().square()).max(0).sqrt().matrix();
+        return bounds_of(centre - reach, centre + reach, n, 0, area_);
+    }
+
   private:
+    Place uniform_place(Sample2 u) const override {
+        Vector2 const d = disc_.radius * to_disc(u);
+        return {disc_.centre + frame_.to_world({d.x(), d.y(), 0}), disc_.normal};
+    }
+
     Disc disc_;
     Frame frame_;
 };
@@ -253,6 +358,22 @@ class FrustumLight final : public AreaLight {
           frame_(Frame::around((f.to - f.from).normalized())) {}
 
     std::optional<LightSample> sample(Vector const& from, Wavelengths const& wavelengths, Sample2 u) const override {
+        return sample_by_area(from, wavelengths, u);
+    }
+    PerSteradian density(Vector const& from, SurfacePoint const& on, std::uint32_t) const override {
+        return area_density(static_cast<float>(area_), from, on.position, on.geometric_normal);
+    }
+
+    // Seen from beside it, a side shows 1 / pi of its area.
+    std::optional<LightBounds> bounds() const override {
+        VectorDouble const a = frustum_.from.cast<double>(), b = frustum_.to.cast<double>();
+        VectorDouble const reach =
+            VectorDouble::Constant(static_cast<double>(std::max(frustum_.radius, frustum_.top_radius)));
+        return bounds_of(a.cwiseMin(b) - reach, a.cwiseMax(b) + reach, {0, 0, 1}, pi_double, area_ / pi_double);
+    }
+
+  private:
+    Place uniform_place(Sample2 u) const override {
         // Height with density proportional to the radius there, inverted without cancellation:
         // r(z)^2 = r0^2 + u (r1^2 - r0^2).
         float const r0 = frustum_.radius, r1 = frustum_.top_radius;
@@ -261,15 +382,10 @@ class FrustumLight final : public AreaLight {
         float const m = (r1 - r0) / frustum_.length();
         auto const [sine, cosine] = sine_cosine_of_turns(u.y);
         Vector const outward = frame_.to_world({cosine, sine, 0});
-        Vector const point = frustum_.from + z * (frustum_.to - frustum_.from) + r * outward;
-        Direction const n = (outward - m * frame_.normal).normalized();
-        return towards(from, point, n, wavelengths, area_density(static_cast<float>(area_), from, point, n));
-    }
-    PerSteradian density(Vector const& from, SurfacePoint const& on, std::uint32_t) const override {
-        return area_density(static_cast<float>(area_), from, on.position, on.geometric_normal);
+        return {frustum_.from + z * (frustum_.to - frustum_.from) + r * outward,
+                (outward - m * frame_.normal).normalized()};
     }
 
-  private:
     Frustum frustum_;
     Frame frame_;
 };

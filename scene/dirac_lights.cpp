@@ -9,7 +9,7 @@ namespace {
 class SpotLight final : public Light {
   public:
     SpotLight(Vector const& position, SpotCone cone, Spectrum<dim::spectral_intensity> intensity, double luminance)
-        : position_(position), cone_(std::move(cone)), intensity_(std::move(intensity)) {
+        : position_(position), cone_(std::move(cone)), intensity_(std::move(intensity)), luminance_(luminance) {
         power_ = luminance * effective_solid_angle();
     }
 
@@ -23,7 +23,27 @@ class SpotLight final : public Light {
         Radiance const arriving((intensity_.at(wavelengths) * (share / square(distance))).lane);
         return std::optional<LightSample>(std::in_place, wi, distance, arriving, std::nullopt);
     }
+    std::optional<EmissionSample> emit(Ball const& scene, Wavelengths const& wavelengths, Sample2,
+                                       Sample2 direction) const override {
+        Direction const travel = Frame::around(cone_.axis).to_world(to_cone(direction, 1 - cone_.cos_end));
+        float const share = share_along(travel);
+        if (share == 0) return std::nullopt;
+        return std::optional<EmissionSample>(std::in_place, SurfacePoint{position_, travel, travel}, 0u, travel, 1.0f,
+                                             emission_density(scene, travel, 1),
+                                             Radiance((intensity_.at(wavelengths) * share).lane));
+    }
+    EmissionDensity emission_density(Ball const&, Direction const& travel, float) const override {
+        bool const inside = travel.dot(cone_.axis) >= cone_.cos_end;
+        return {PerSquareMetre(1), inside ? cone_density(1 - cone_.cos_end) : PerSteradian(0)};
+    }
+    LightExtent extent() const override { return LightExtent::point; }
     double power(double) const override { return power_; }
+    std::optional<LightBounds> bounds() const override {
+        VectorDouble const place = position_.cast<double>();
+        double const full = std::acos(static_cast<double>(cone_.cos_full)),
+                     end = std::acos(static_cast<double>(cone_.cos_end));
+        return LightBounds{place, place, cone_.axis.cast<double>(), full, end - full, false, luminance_};
+    }
 
   private:
     // The share of the intensity that goes along d.
@@ -64,7 +84,7 @@ class SpotLight final : public Light {
     Vector position_;
     SpotCone cone_;
     Spectrum<dim::spectral_intensity> intensity_;
-    double power_;
+    double luminance_, power_;
 };
 
 class DistantLight final : public Light {
@@ -76,6 +96,18 @@ class DistantLight final : public Light {
         return std::optional<LightSample>(std::in_place, wi_, infinity, Radiance(irradiance_.at(wavelengths).lane),
                                           std::nullopt);
     }
+    std::optional<EmissionSample> emit(Ball const& scene, Wavelengths const& wavelengths, Sample2 place,
+                                       Sample2) const override {
+        Direction const travel = -wi_;
+        Vector const from = place_before_scene(scene, travel, place);
+        return std::optional<EmissionSample>(std::in_place, SurfacePoint{from, travel, travel}, 0u, travel, 1.0f,
+                                             emission_density(scene, travel, 1),
+                                             Radiance(irradiance_.at(wavelengths).lane));
+    }
+    EmissionDensity emission_density(Ball const& scene, Direction const&, float) const override {
+        return {density_before_scene(scene), PerSteradian(1)};
+    }
+    LightExtent extent() const override { return LightExtent::distant; }
     double power(double scene_radius) const override { return luminance_ * pi_double * square(scene_radius); }
 
   private:

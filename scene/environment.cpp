@@ -8,7 +8,26 @@ namespace iride {
 
 namespace {
 
-class ConstantEnvironment final : public Light {
+class Environment : public Light {
+  public:
+    std::optional<EmissionSample> emit(Ball const& scene, Wavelengths const& wavelengths, Sample2 place,
+                                       Sample2 direction) const override {
+        auto const seen = sample(scene.centre, wavelengths, direction);
+        if (!seen) return std::nullopt;
+        Direction const travel = -seen->wi;
+        Vector const from = place_before_scene(scene, travel, place);
+        return std::optional<EmissionSample>(std::in_place, SurfacePoint{from, travel, travel}, 0u, travel, 1.0f,
+                                             EmissionDensity{density_before_scene(scene), *seen->density},
+                                             seen->radiance);
+    }
+    EmissionDensity emission_density(Ball const& scene, Direction const& travel, float) const override {
+        return {density_before_scene(scene), arriving_density(-travel)};
+    }
+    LightExtent extent() const override { return LightExtent::environment; }
+    bool is_environment() const override { return true; }
+};
+
+class ConstantEnvironment final : public Environment {
   public:
     ConstantEnvironment(Emission radiance, double luminance) : radiance_(std::move(radiance)), luminance_(luminance) {}
 
@@ -20,8 +39,7 @@ class ConstantEnvironment final : public Light {
         return radiance_.at(wavelengths);
     }
     PerSteradian arriving_density(Direction const&) const override { return uniform_sphere_density; }
-    double power(double scene_radius) const override { return luminance_ * square(2 * pi_double * scene_radius) / 2; }
-    bool is_environment() const override { return true; }
+    double power(double scene_radius) const override { return luminance_ * square(2 * pi_double * scene_radius); }
 
   private:
     Emission radiance_;
@@ -30,7 +48,7 @@ class ConstantEnvironment final : public Light {
 
 // Direction <-> picture: x = 1/2 + azimuth / 2 pi with azimuth 0 at -z growing towards +x, y = polar angle / pi from
 // +y. d omega = 2 pi^2 sin(polar) dx dy.
-class PictureEnvironment final : public Light {
+class PictureEnvironment final : public Environment {
   public:
     explicit PictureEnvironment(EnvironmentPicture picture) : picture_(std::move(picture)) {
         std::vector<double> weights;
@@ -64,7 +82,6 @@ class PictureEnvironment final : public Light {
         // mean of luminance sin(polar) over the square, times 2 pi^2 sr, times the disc of the scene.
         return distribution_.mean_weight() * 2 * square(pi_double) * pi_double * square(scene_radius);
     }
-    bool is_environment() const override { return true; }
 
   private:
     struct Place {

@@ -12,6 +12,8 @@
 #include "base/warp.h"
 #include "materials/emission.h"
 #include "materials/surface_point.h"
+#include "scene/light_bounds.h"
+#include "scene/light_emission.h"
 #include "scene/shape.h"
 
 namespace iride {
@@ -21,6 +23,7 @@ struct LightSample {
     float distance;                       // metres; infinite for environments and distant lights
     Radiance radiance;                    // for a Dirac light: radiance times solid angle, i.e. irradiance / |cos|
     std::optional<PerSteradian> density;  // absent for a Dirac light (point, spot, distant)
+    float cosine = 1;                     // against the normal of a lamp's surface
 };
 
 // A point that asks a light for a sample, and the answer.
@@ -48,9 +51,24 @@ class Light {
     virtual Radiance arriving(Direction const& wi, Wavelengths const& wavelengths) const;
     virtual PerSteradian arriving_density(Direction const& wi) const;
 
+    // A ray that leaves the light; and the density with which emit() draws one along `travel` where that makes
+    // `cosine` with the front's normal (area lights; its sign tells the side).
+    virtual std::optional<EmissionSample> emit(Ball const& scene, Wavelengths const& wavelengths, Sample2 place,
+                                               Sample2 direction) const = 0;
+    virtual EmissionDensity emission_density(Ball const& scene, Direction const& travel, float cosine) const = 0;
+    virtual LightExtent extent() const = 0;
+
     // Luminous power up to a common factor, for choosing among lights; `scene_radius` in metres.
     virtual double power(double scene_radius) const = 0;
     virtual bool is_environment() const { return false; }
+
+    // What a tree of lamps wants to know; absent for what comes from infinity.
+    virtual std::optional<LightBounds> bounds() const { return std::nullopt; }
+    // sample() with points of a shape uniform over its area, to compare.
+    virtual std::optional<LightSample> sample_by_area(Vector const& from, Wavelengths const& wavelengths,
+                                                      Sample2 u) const {
+        return sample(from, wavelengths, u);
+    }
 };
 
 // Luminance-weighted strengths are measured at load: the spectra themselves stay as they are.

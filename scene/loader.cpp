@@ -78,15 +78,37 @@ void read_film(SceneBuilder& b, Fields& top) {
     f.finish();
 }
 
+// A name, or an object with a name; the other keys are looked at by the integrator.
+std::optional<IntegratorChoice> read_integrator(SceneBuilder& b, Fields& f) {
+    JsonValue const* const value = f.find("integrator");
+    if (!value) return std::nullopt;
+    IntegratorChoice choice{{}, {JsonObject{}}, b.context.file, f.path("integrator"), value->line, value->column};
+    if (JsonObject const* const object = value->as<JsonObject>()) {
+        Fields g(b.context, *value, choice.key_path);
+        g.require("name");
+        choice.name = g.text("name").value_or(choice.name);
+        JsonObject others = *object;
+        std::erase_if(others, [](auto const& entry) { return entry.first == "name"; });
+        choice.options = {std::move(others), value->line, value->column};
+    } else {
+        choice.name = f.text("integrator").value_or(choice.name);
+    }
+    return choice;
+}
+
 void read_render(SceneBuilder& b, Fields& top) {
     JsonValue const* const value = top.find("render");
     if (!value) return;
     Fields f(b.context, *value, "render");
     RenderDefaults& r = b.scene.render;
-    r.integrator = f.text("integrator").value_or(r.integrator);
+    r.integrator = read_integrator(b, f).value_or(r.integrator);
     r.spp = f.integer("spp", 1, 1 << 24).value_or(r.spp);
     if (auto const seed = f.number("seed", between(0, 0x1p53))) r.seed = static_cast<std::uint64_t>(*seed);
-    if (f.choice("sampler", {"sobol", "independent"}) == "independent") r.sampler = SamplerKind::independent;
+    std::vector<std::string> const samplers(sampler_names.begin(), sampler_names.end());
+    if (auto const sampler = f.choice("sampler", samplers)) r.sampler = *sampler_of(*sampler);
+    std::vector<std::string> const selections(light_selection_names.begin(), light_selection_names.end());
+    if (auto const selection = f.choice("light_selection", selections))
+        r.light_selection = static_cast<LightSelection>(std::ranges::find(selections, *selection) - selections.begin());
     r.max_bounces = f.integer("max_bounces", 0, 1 << 20);
     f.finish();
 }

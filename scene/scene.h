@@ -14,7 +14,8 @@
 #include "materials/medium.h"
 #include "scene/accelerator.h"
 #include "scene/camera.h"
-#include "scene/light.h"
+#include "scene/integrator_choice.h"
+#include "scene/light_selection.h"
 
 namespace iride {
 
@@ -32,11 +33,12 @@ struct FilmSettings {
 };
 
 struct RenderDefaults {
-    std::string integrator = "path";
+    IntegratorChoice integrator{};
     int spp = 64;
     std::uint64_t seed = 0;
     SamplerKind sampler = SamplerKind::sobol;
     std::optional<int> max_bounces;
+    std::optional<LightSelection> light_selection{};  // absent: the plan decides
 };
 
 // A material with what is known of it outside the sampling loop.

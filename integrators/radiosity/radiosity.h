@@ -75,6 +75,6 @@ class SceneRadiosity {
 // Looks at a solution.
 std::unique_ptr<Integrator> show(std::shared_ptr<RadiosityField const> field);
 
-std::unique_ptr<Integrator> make_radiosity(Scene const& scene, RenderPlan const& plan);
+std::unique_ptr<Integrator> make_radiosity(Scene const& scene, RenderPlan const& plan, IntegratorOptions& options);
 
 }  // namespace iride::radiosity

@@ -32,7 +32,8 @@ std::unique_ptr<Integrator> show(std::shared_ptr<RadiosityField const> field) {
     return std::make_unique<Show>(std::move(field));
 }
 
-std::unique_ptr<Integrator> make_radiosity(Scene const& scene, RenderPlan const& plan) {
+std::unique_ptr<Integrator> make_radiosity(Scene const& scene, RenderPlan const& plan, IntegratorOptions& options) {
+    options.finish();
     return show(SceneRadiosity(scene, plan.wavelengths, {}).field());
 }
 

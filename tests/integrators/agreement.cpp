@@ -1,50 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 // `path` against `reference_path` by a z-test on eight small scenes, and both against closed forms.
-#include <fmt/format.h>
-#include <catch2/catch.hpp>
+#include "support/agreement.h"
 
-#include "support/scenes.h"
-#include "support/statistics.h"
+#include <fmt/format.h>
+
+#include <catch2/catch.hpp>
 
 using namespace iride;
 
 namespace {
 
-std::string scene_text(std::string const& camera, std::string const& rest) {
-    return fmt::format(
-        R"({{ "camera": {}, "film": {{ "size": [12, 12] }}, "render": {{ "sampler": "independent" }}, {} }})", camera,
-        rest);
-}
-
-std::string const view = R"({ "eye": [0, 1, -4], "target": [0, 0.6, 0], "field_deg": 40 })";
-std::string const floor_quad =
-    R"({ "type": "quad", "corners": [[-3,0,-3],[-3,0,3],[3,0,3],[3,0,-3]], "material": { "type": "diffuse", "reflectance": 0.6 } })";
-std::string const lamp =
-    R"({ "type": "quad", "corners": [[-1.2,2.5,-1],[1,2.5,-1],[1,2.5,1.2],[-1.2,2.5,1.2]], "material": { "type": "black" }, "emission": { "radiance": { "data": "D65", "luminance_weighted": 3 } } })";
-std::string const big_lamp_sphere =
-    R"({ "type": "sphere", "centre": [1.5,1.6,0.5], "radius": 0.8, "material": { "type": "diffuse", "reflectance": 0.3 }, "emission": { "radiance": 2 } })";
-std::string sphere(std::string const& material) {
-    return fmt::format(R"({{ "type": "sphere", "centre": [0,0.7,0], "radius": 0.7, "material": {} }})", material);
-}
-
-struct Moments {
-    double mean = 0, variance = 0;
-};
-
-// Mean of all pixels' X, Y and Z, and the variance of that mean.
-std::array<Moments, 3> picture_mean(Film const& film) {
-    std::array<Moments, 3> m{};
-    double const n = film.width() * film.height();
-    for (int y = 0; y < film.height(); ++y)
-        for (int x = 0; x < film.width(); ++x) {
-            Xyz const a = film.mean(x, y), v = film.variance(x, y);
-            for (auto [k, value, var] : {std::tuple(0, a.X, v.X), {1, a.Y, v.Y}, {2, a.Z, v.Z}}) {
-                m[static_cast<std::size_t>(k)].mean += value / n;
-                m[static_cast<std::size_t>(k)].variance += var / (n * n);
-            }
-        }
-    return m;
-}
+using test::big_lamp_sphere;
+using test::floor_quad;
+using test::lamp;
+using test::Moments;
+using test::picture_mean;
+using test::scene_text;
+using test::sphere;
+using test::view;
 
 void check_agreement(std::string const& name, std::string const& text) {
     auto const scene = test::scene_from(text);
@@ -54,22 +27,7 @@ void check_agreement(std::string const& name, std::string const& text) {
     settings.seed = 12;
     Film const slow = test::rendered(*scene, "reference_path", settings);
     INFO(name);
-    CHECK(fast.rejected() == std::array<std::uint64_t, rejection_count>{});
-    // Per pixel: z of Y beyond 3.3 (two-sided level 1e-3) in no more of 144 pixels than 4; the whole: |z| < 4.
-    int beyond = 0;
-    for (int y = 0; y < fast.height(); ++y)
-        for (int x = 0; x < fast.width(); ++x) {
-            double const d = fast.mean(x, y).Y - slow.mean(x, y).Y, v = fast.variance(x, y).Y + slow.variance(x, y).Y;
-            beyond += d * d > 3.3 * 3.3 * v + 1e-20;
-        }
-    CHECK(beyond <= 4);
-    auto const a = picture_mean(fast), b = picture_mean(slow);
-    for (std::size_t k = 0; k < 3; ++k) {
-        double const z = (a[k].mean - b[k].mean) / std::sqrt(a[k].variance + b[k].variance + 1e-30);
-        INFO("component " << k << ": " << a[k].mean << " against " << b[k].mean);
-        CHECK(std::abs(z) < 4);
-        CHECK(b[k].mean > 0.01);
-    }
+    test::check_films_agree(fast, slow);
 }
 
 }  // namespace

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// An experiment of the source, repeated with the columns that it lacks: each prints one table in Markdown on stdout.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <string>
+
+#include "integrators/render.h"
+
+namespace iride::bench {
+
+struct Experiment {
+    char const* name;
+    char const* question;
+    void (*run)();
+};
+
+// One per file; main.cpp has the table.
+void light_strategies();
+void russian_roulette();
+void convergence();
+void lamp_shapes();
+
+inline std::unique_ptr<Scene> scene_from(std::string const& text) {
+    auto const path = std::filesystem::temp_directory_path() / "iride-experiment.json";
+    std::ofstream(path, std::ios::binary) << text;
+    return load_scene(path);
+}
+
+struct Rendered {
+    Film film;
+    RenderReport report;
+};
+inline Rendered rendered(Scene const& scene, std::string const& integrator, RenderSettings const& settings) {
+    RenderPlan const plan = make_plan(scene);
+    Film film = make_film(scene);
+    RenderReport const report = render(scene, plan, *make_integrator(integrator, scene, plan), settings, film);
+    return {std::move(film), report};
+}
+
+}  // namespace iride::bench

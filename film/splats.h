@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// What light paths add to the picture, at whatever pixel they reach. Sums are integers, so the picture does not depend
+// on the order: a value v is kept as v = high 2^-12 + low 2^-44, two 64-bit counts that are added to on their own. A
+// splat is exact to 2^-45 and sums hold to 2^51. With v the splat over the number of pixels, N light paths for n pixels
+// give
+//   mean = n / N sum v,   variance of the mean = (n / N)^2 (sum v^2 - (sum v)^2 / N)
+// as if the splats of one light path to one pixel were independent of one another.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "colour/xyz.h"
+
+namespace iride {
+
+class Splats {
+  public:
+    Splats(int width, int height, int band_count);
+
+    // Add to pixel (x, y); from any thread. False, and nothing is added, for a value beyond the largest.
+    bool add(int x, int y, Xyz const& value);
+    void add_to_band(int x, int y, int band, double value);
+    void count_path();
+    void reject();  // count a splat that is dropped
+    std::uint64_t rejected() const { return static_cast<std::uint64_t>(rejected_); }
+
+    Xyz mean(int x, int y) const;
+    Xyz variance(int x, int y) const;
+    double band(int x, int y, int band) const;
+
+    static constexpr double largest = 0x1p23;  // of a splat over the number of pixels: its square still fits
+
+  private:
+    struct Sum {
+        std::int64_t high = 0, low = 0;
+        void add(double value);
+        double total() const;
+    };
+    std::size_t index(int x, int y) const {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+    }
+    double pixels_per_path() const;
+
+    int width_;
+    std::size_t pixel_count_, band_count_;
+    std::vector<std::array<Sum, 3>> sum_, sum_of_squares_;
+    std::vector<Sum> band_sum_;  // [pixel][band]
+    std::int64_t paths_ = 0, rejected_ = 0;
+};
+
+}  // namespace iride

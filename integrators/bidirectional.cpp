@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "integrators/bidirectional.h"
+
+#include "integrators/light_tracing.h"
+#include "integrators/light_walk.h"
+
+namespace iride {
+
+namespace {
+
+constexpr int roulette_from = 2;  // scatterings before camera paths may end by chance
+
+// What arrives if nothing stands between: contributions of one camera path, their rays traced together.
+class Shadowed {
+  public:
+    void clear() { radiance_.clear(), queries_.clear(); }
+    void add(Radiance const& radiance, Ray const& ray) {
+        radiance_.push_back(radiance);
+        queries_.push_back({ray});
+    }
+    Radiance traced(Scene const& scene, RayStatistics& statistics) {
+        scene.accelerator->occluded(queries_, statistics);
+        Radiance sum;
+        for (std::size_t i = 0; i < queries_.size(); ++i)
+            if (!queries_[i].occluded) sum += radiance_[i];
+        return sum;
+    }
+
+  private:
+    std::vector<Radiance> radiance_;
+    std::vector<ShadowQuery> queries_;
+};
+
+template <class Heuristic>
+class Bidirectional final : public Integrator {
+  public:
+    Bidirectional(Scene const& scene, RenderPlan const& plan) : context_(scene, plan) {}
+
+    void follow(Scene const& scene, std::span<CameraPath> paths, RayStatistics& statistics) const override {
+        Work work;
+        for (CameraPath& path : paths) {
+            work.vertices.clear();
+            work.shadowed.clear();
+            walk_from_light<Heuristic>(
+                scene, context_, path, statistics, [](LightStart const&, Sample2) {},
+                [&](LightVertex<Heuristic> const& here, Flux const& flux, Sample2 lens) {
+                    work.flux = flux;
+                    work.vertices.push_back(here);
+                    auto const sent = send_to_camera(scene, context_, path.wavelengths, here, flux, lens, true);
+                    if (sent && !scene.accelerator->occluded(sent->shadow_ray, statistics))
+                        path.splats.push_back(sent->splat);
+                });
+            walk_from_camera(scene, path, work, statistics);
+            path.radiance += work.shadowed.traced(scene, statistics);
+        }
+    }
+    bool splats() const override { return true; }
+
+  private:
+    struct Work {
+        std::vector<LightVertex<Heuristic>> vertices;
+        Flux flux;
+        Shadowed shadowed;
+    };
+
+    void walk_from_camera(Scene const& scene, CameraPath& path, Work& work, RayStatistics& statistics) const {
+        Subpath<Heuristic> walk;
+        for (int bounce = 0;; ++bounce) {
+            auto const hit = scene.accelerator->closest(path.ray, statistics);
+            if (!hit) return void(path.radiance += from_infinity(scene, path, walk));
+            Direction const back = -path.ray.direction;
+            float const arriving = std::abs(back.dot(hit->point.geometric_normal));
+            if (!(arriving > 0)) return;
+            if (hit->shape->light >= 0) path.radiance += from_lamp(scene, path, *hit, walk, bounce);
+            if (bounce == context_.max_bounces) {
+                path.complete &= context_.max_bounces < longest_path;
+                return;
+            }
+            if (bounce == 0)
+                walk.near = Lanes(Heuristic::of(context_.light_paths /
+                                                (context_.camera.density(path.ray, hit->distance) * arriving)));
+            else
+                walk.arrive(hit->distance, arriving);
+            path.sampler.begin_vertex(static_cast<std::uint32_t>(bounce));
+            Sample2 const choices = path.sampler.next2(), on_light = path.sampler.next2(), on = path.sampler.next2(),
+                          chances = path.sampler.next2();
+            Meeting const here(scene, *hit, back, path.wavelengths, chances.y);
+            if (here.seen().bsdf.has_density()) {
+                sample_light(scene, path, here, walk, {choices.x, on_light}, work.shadowed);
+                for (LightVertex<Heuristic> const& vertex : work.vertices) {
+                    if (bounce + 1 + vertex.number > context_.max_bounces) break;
+                    join(scene, path.wavelengths, here, walk, vertex, work);
+                }
+            }
+            if (!scatter(scene, path, here, {choices.y, on}, walk)) return;
+            if (bounce >= roulette_from && !survives<true>(walk.state, chances.x)) return;
+        }
+    }
+
+    // s = 0: `near` and `far` as they are before the last ray's end.
+    Radiance from_lamp(Scene const& scene, CameraPath const& path, Hit const& hit, Subpath<Heuristic> const& walk,
+                       int bounce) const {
+        int const index = hit.shape->light;
+        Light const& light = scene.lights.light(index);
+        Direction const travel = -path.ray.direction;
+        Radiance const Le = light.emitted(hit.point, travel, path.wavelengths);
+        if (is_black(Le)) return {};
+        Lanes techniques = Heuristic::of(walk.state.reach);
+        float const chosen = scene.lights.probability(index), cosine = travel.dot(hit.point.geometric_normal);
+        if (chosen > 0 && bounce > 0) {
+            float const sampled = chosen * light.density(path.ray.origin, hit.point, hit.primitive).value;
+            float const emitted = chosen * light.emission_density(context_.ball, travel, cosine).product();
+            techniques += Heuristic::of(sampled) * walk.near + Heuristic::of(emitted / std::abs(cosine)) * walk.far;
+        }
+        return walk.state.weight * Le * (1 / float(mean(techniques)));
+    }
+    Radiance from_infinity(Scene const& scene, CameraPath const& path, Subpath<Heuristic> const& walk) const {
+        Radiance L;
+        Direction const wi = path.ray.direction;
+        for (int e : scene.lights.environments()) {
+            Light const& light = scene.lights.light(e);
+            float const chosen = scene.lights.probability(e);
+            Lanes techniques = Heuristic::of(walk.state.reach);
+            if (chosen > 0)
+                techniques +=
+                    Heuristic::of(chosen * light.arriving_density(wi).value) * walk.near +
+                    Heuristic::of(chosen * light.emission_density(context_.ball, -wi, 1).product()) * walk.far;
+            L += walk.state.weight * light.arriving(wi, path.wavelengths) * (1 / float(mean(techniques)));
+        }
+        return L;
+    }
+
+    // s = 1.
+    void sample_light(Scene const& scene, CameraPath const& path, Meeting const& here, Subpath<Heuristic> const& walk,
+                      Sample3 u, Shadowed& shadowed) const {
+        if (!scene.lights.has_power()) return;
+        auto const choice = scene.lights.choose(u.lobe);
+        Light const& light = scene.lights.light(choice.index);
+        auto const sample = light.sample(here.point().position, path.wavelengths, u.direction);
+        if (!sample) return;
+        Scattering const s = here.scattering(scene, path.wavelengths, here.back(), sample->wi);
+        if (is_black(s.value)) return;
+        float const chosen = choice.probability * (sample->density ? sample->density->value : 1);
+        Scattering const reversed = here.scattering(scene, path.wavelengths, sample->wi, here.back());
+        // The density over area here of the light's own paths, over that of this sample.
+        float p_back = scene.lights.probability(choice.index) * here.cosine(sample->wi) / chosen *
+                       light.emission_density(context_.ball, -sample->wi, sample->cosine).product() / sample->cosine;
+        if (light.extent() == LightExtent::point) p_back /= square(sample->distance);
+        Lanes techniques = Heuristic::of(walk.state.reach) + walk.others(Lanes(p_back), Lanes(reversed.density.lane));
+        if (sample->density) techniques += Heuristic::of(walk.state.reach * Lanes(s.density.lane) / chosen);
+        float const scale = s.cosine / (chosen * float(mean(techniques)));
+        shadowed.add(walk.state.weight * Throughput(s.value.lane * scale) * sample->radiance,
+                     spawn_shadow_ray(here.point(), sample->wi, sample->distance));
+    }
+
+    // A camera vertex with a light vertex.
+    void join(Scene const& scene, Wavelengths const& wavelengths, Meeting const& here, Subpath<Heuristic> const& walk,
+              LightVertex<Heuristic> const& vertex, Work& work) const {
+        Meeting const& there = vertex.meeting;
+        Vector const d = there.point().position - here.point().position;
+        float const distance2 = d.squaredNorm();
+        if (!(distance2 > 0)) return;
+        float const distance = std::sqrt(distance2);
+        Direction const towards = d / distance;
+        Scattering const f = here.scattering(scene, wavelengths, here.back(), towards);
+        if (is_black(f.value)) return;
+        Scattering const g = there.scattering(scene, wavelengths, -towards, there.back());
+        if (is_black(g.value)) return;
+        Scattering const f_back = here.scattering(scene, wavelengths, towards, here.back());
+        Scattering const g_on = there.scattering(scene, wavelengths, there.back(), -towards);
+        Lanes const p_there = Lanes(f.density.lane) * (there.cosine(towards) / distance2),
+                    p_here = Lanes(g_on.density.lane) * (here.cosine(towards) / distance2);
+        Lanes const here_reach = Heuristic::of(walk.state.reach), there_reach = Heuristic::of(vertex.path.state.reach);
+        Lanes const techniques = here_reach * there_reach +
+                                 here_reach * vertex.path.others(p_there, Lanes(g.density.lane)) +
+                                 there_reach * walk.others(p_here, Lanes(f_back.density.lane));
+        float const scale =
+            f.cosine * there.adjoint_cosine(g.cosine, there.back(), towards) / (distance2 * float(mean(techniques)));
+        Radiance const joined(work.flux.lane * vertex.path.state.weight.lane * g.value.lane * f.value.lane * scale);
+        work.shadowed.add(walk.state.weight * joined, spawn_shadow_ray(here.point(), towards, distance));
+    }
+
+    bool scatter(Scene const& scene, CameraPath& path, Meeting const& here, Sample3 u, Subpath<Heuristic>& walk) const {
+        Interaction const& seen = here.seen();
+        auto const sample = seen.bsdf.sample(seen.wo, u);
+        if (!sample) return false;
+        Direction const on = seen.frame.to_world(sample->wi);
+        if (!seen.is_consistent(on, sample->wi)) return false;
+        if (sample->density) {
+            Scattering const reversed = here.scattering(scene, path.wavelengths, on, here.back());
+            walk.go_on(here, *sample, on, Lanes(reversed.density.lane));
+        } else {
+            walk.go_on_through_dirac(here, *sample, here.squared_index_ratio(scene, path.wavelengths, on));
+        }
+        walk.state.weight *= sample->weight;
+        path.ray = spawn_ray(here.point(), on);
+        return true;
+    }
+
+    TwoWayContext context_;
+};
+
+}  // namespace
+
+std::unique_ptr<Integrator> make_bidirectional(Scene const& scene, RenderPlan const& plan, IntegratorOptions&) {
+    check_light_paths_possible(scene, plan, "bidirectional");
+    return std::make_unique<Bidirectional<BalanceHeuristic>>(scene, plan);
+}
+std::unique_ptr<Integrator> make_bidirectional_power(Scene const& scene, RenderPlan const& plan, IntegratorOptions&) {
+    check_light_paths_possible(scene, plan, "bidirectional-power");
+    return std::make_unique<Bidirectional<PowerHeuristic>>(scene, plan);
+}
+
+}  // namespace iride

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "integrators/choice.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "integrators/light_tracing.h"
+
+namespace iride {
+
+namespace {
+
+bool is_one_of(std::string const& type, std::span<char const* const> types) {
+    return std::ranges::any_of(types, [&](char const* t) { return type == t; });
+}
+
+// Throws light into narrow directions, or may.
+bool throws_caustics(NamedMaterial const& m) {
+    constexpr std::array types{"conductor", "dielectric"};
+    return is_one_of(m.type, types);
+}
+bool receives_caustics(NamedMaterial const& m) {
+    constexpr std::array types{"diffuse", "oren-nayar", "plastic", "mixture", "two-sided"};
+    return is_one_of(m.type, types);
+}
+
+std::string names_of(Scene const& scene, bool (*wanted)(NamedMaterial const&)) {
+    std::string names;
+    for (NamedMaterial const& m : scene.materials)
+        if (wanted(m)) names += (names.empty() ? "" : ", ") + m.name;
+    return names;
+}
+
+}  // namespace
+
+AutomaticChoice choose_integrator(Scene const& scene, RenderPlan const& plan) {
+    std::string const hindrance = why_no_light_paths(scene, plan);
+    if (!hindrance.empty()) return {"path", hindrance};
+    std::string const from = names_of(scene, throws_caustics), onto = names_of(scene, receives_caustics);
+    if (from.empty() || onto.empty()) return {"path", "no mirror or glass throws light at a diffuse surface"};
+    if (plan.environment) return {"path", "light from infinity: most light paths would miss what the camera sees"};
+    return {"bidirectional", fmt::format("caustics of {} on {}", from, onto)};
+}
+
+std::unique_ptr<Integrator> make_auto(Scene const& scene, RenderPlan const& plan, IntegratorOptions& options) {
+    std::string const name = choose_integrator(scene, plan).name;
+    return std::ranges::find(integrator_entries(), name, &IntegratorEntry::name)->make(scene, plan, options);
+}
+
+}  // namespace iride

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+// Paths that start at a light, as `light-tracing` and `bidirectional` follow them, and what one of their vertices shows
+// to the camera. Light vertex 0 lies on the light; its weights know that a vertex lit directly may have drawn it from
+// there (scene/light.h) or have met it by scattering.
+#pragma once
+
+#include "integrators/subpath.h"
+#include "scene/camera_importance.h"
+
+namespace iride {
+
+// What is the same for all paths of a picture.
+struct TwoWayContext {
+    CameraImportance camera;
+    Ball ball;
+    float light_paths;  // for each camera path of a pixel: the number of pixels
+    int max_bounces;
+
+    TwoWayContext(Scene const& scene, RenderPlan const& plan)
+        : camera(scene.camera, scene.film.width, scene.film.height),
+          ball{scene.centre(), scene.radius()},
+          light_paths(static_cast<float>(scene.film.width) * static_cast<float>(scene.film.height)),
+          max_bounces(plan.max_bounces.value_or(longest_path)) {}
+};
+
+template <class Heuristic>
+struct LightVertex {
+    Meeting meeting;
+    Subpath<Heuristic> path;
+    int number;  // scatterings with the one here
+};
+
+// Where the light's ray starts.
+struct LightStart {
+    int light;
+    float probability;  // of the choice among lights
+    EmissionSample sample;
+};
+
+// Blocks of random numbers of light vertices lie beyond those of camera paths.
+inline constexpr std::uint32_t light_block = 1u << 20;
+static_assert(light_block > longest_path);
+
+// What a vertex sends to the camera: a splat, and the ray that must be free.
+struct SentToCamera {
+    Splat splat;
+    Ray shadow_ray;
+};
+
+// `light_paths` times `radiance_area`, what leaves per steradian and |cosine|, seen by the camera.
+inline std::optional<SentToCamera> send(SurfacePoint const& from, SightOfCamera const& sight, Radiance const& value) {
+    if (is_black(value)) return std::nullopt;
+    return SentToCamera{{sight.x, sight.y, value}, spawn_shadow_ray(from, sight.towards, sight.distance)};
+}
+
+// The light path that goes with a camera path. start(LightStart, Sample2) is called once with numbers for the lens,
+// vertex(LightVertex, flux, Sample2) at each vertex that has a density. Sets path.complete to false where it gives up.
+template <class Heuristic, class Start, class Visit>
+void walk_from_light(Scene const& scene, TwoWayContext const& context, CameraPath& path, RayStatistics& statistics,
+                     Start&& on_start, Visit&& on_vertex) {
+    if (!scene.lights.has_power()) return;
+    Sampler& sampler = path.sampler;
+    Wavelengths const& wavelengths = path.wavelengths;
+    sampler.begin_vertex(light_block);
+    auto const choice = scene.lights.choose(sampler.next());
+    Light const& light = scene.lights.light(choice.index);
+    Sample2 const place = sampler.next2(), direction = sampler.next2();
+    auto const emitted = light.emit(context.ball, wavelengths, place, direction);
+    if (!emitted) return;
+    LightStart const start{choice.index, choice.probability, *emitted};
+    on_start(start, sampler.next2());
+
+    LightExtent const extent = light.extent();
+    Flux const flux = emitted->flux() * (1 / choice.probability);
+    Subpath<Heuristic> walk;
+    Ray ray = extent == LightExtent::area ? spawn_ray(emitted->from, emitted->travel)
+                                          : Ray{emitted->from.position, emitted->travel};
+    for (int number = 1; number <= context.max_bounces; ++number) {
+        auto const hit = scene.accelerator->closest(ray, statistics);
+        if (!hit) return;
+        Direction const back = -ray.direction;
+        float const arriving = std::abs(back.dot(hit->point.geometric_normal));
+        if (!(arriving > 0)) return;
+        if (number == 1)
+            begin(light, start, *hit, arriving, scene.lights.probability(choice.index), walk);
+        else
+            walk.arrive(hit->distance, arriving);
+        sampler.begin_vertex(light_block + static_cast<std::uint32_t>(number));
+        Sample2 const choices = sampler.next2(), lens = sampler.next2(), on = sampler.next2(),
+                      chances = sampler.next2();
+        LightVertex<Heuristic> const here{Meeting(scene, *hit, back, wavelengths, chances.y), walk, number};
+        if (here.meeting.seen().bsdf.has_density()) on_vertex(here, flux, lens);
+        if (number == longest_path) path.complete = false;
+        if (number == context.max_bounces ||
+            !scatter_light(scene, wavelengths, here.meeting, {choices.y, on}, walk, ray))
+            return;
+        constexpr int roulette_from = 2;
+        if (number > roulette_from && !survives<true>(walk.state, chances.x)) return;
+    }
+}
+
+// near and far at the first vertex: the light drawn from there, and met from there by scattering.
+template <class Heuristic>
+void begin(Light const& light, LightStart const& start, Hit const& hit, float arriving, float chosen_from_there,
+           Subpath<Heuristic>& walk) {
+    EmissionSample const& e = start.sample;
+    float const found = start.probability * e.density.product();
+    float far = 0, near = 0;
+    switch (light.extent()) {
+        case LightExtent::area:
+            far = e.cosine / (found * arriving);
+            near = far * chosen_from_there * light.density(hit.point.position, e.from, e.primitive).value;
+            break;
+        case LightExtent::environment:
+            far = 1 / (found * arriving);
+            near = far * chosen_from_there * light.arriving_density(-e.travel).value;
+            break;
+        case LightExtent::point:
+            near = chosen_from_there * square(hit.distance) / (found * arriving);
+            break;
+        case LightExtent::distant:
+            near = chosen_from_there / (found * arriving);
+            break;
+    }
+    walk.far = Lanes(Heuristic::of(far));
+    walk.near = Lanes(Heuristic::of(near));
+}
+
+// Choose where light goes on, as power; false if it ends here.
+template <class Heuristic>
+bool scatter_light(Scene const& scene, Wavelengths const& wavelengths, Meeting const& here, Sample3 u,
+                   Subpath<Heuristic>& walk, Ray& ray) {
+    Interaction const& seen = here.seen();
+    auto const sample = seen.bsdf.sample(seen.wo, u);
+    if (!sample) return false;
+    Direction const on = seen.frame.to_world(sample->wi);
+    if (!(here.cosine(on) > 0)) return false;
+    if (sample->density) {
+        Scattering const s = here.scattering(scene, wavelengths, on, here.back());
+        float const scale = here.adjoint_cosine(s.cosine, here.back(), on) / sample->density->value;
+        walk.state.weight *= Throughput(s.value.lane * scale);
+        walk.go_on(here, *sample, on, Lanes(s.density.lane));
+    } else {
+        if (!seen.is_consistent(on, sample->wi)) return false;
+        Lanes const ratio = here.squared_index_ratio(scene, wavelengths, on);
+        walk.state.weight *= sample->weight * ratio * here.adjoint_of_dirac(on);
+        walk.go_on_through_dirac(here, *sample, ratio);
+    }
+    if (is_black(walk.state.weight)) return false;
+    ray = spawn_ray(here.point(), on);
+    return true;
+}
+
+// What light vertex `here` adds to the picture. `weighed`: against the camera paths that make the same.
+template <class Heuristic>
+std::optional<SentToCamera> send_to_camera(Scene const& scene, TwoWayContext const& context,
+                                           Wavelengths const& wavelengths, LightVertex<Heuristic> const& here,
+                                           Flux const& flux, Sample2 lens, bool weighed) {
+    Meeting const& at = here.meeting;
+    auto const sight = context.camera.sight_of(at.point().position, lens);
+    if (!sight) return std::nullopt;
+    Direction const& viewer = sight->towards;
+    Scattering const s = at.scattering(scene, wavelengths, viewer, at.back());
+    if (is_black(s.value)) return std::nullopt;
+    float const density = sight->density / context.light_paths;
+    Lanes techniques = Heuristic::of(here.path.state.reach);
+    if (weighed) techniques += here.path.others(Lanes(density * at.cosine(viewer)), Lanes(s.density.lane));
+    float const scale = at.adjoint_cosine(s.cosine, at.back(), viewer) * sight->density / float(mean(techniques));
+    return send(at.point(), *sight, Radiance(flux.lane * here.path.state.weight.lane * s.value.lane * scale));
+}
+
+}  // namespace iride

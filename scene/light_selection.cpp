@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/light_selection.h"
+
+namespace iride {
+
+LightSelector::LightSelector(LightSet const& lights, LightSelection selection)
+    : lights_(lights), selection_(selection), place_(lights.size(), -1) {
+    std::vector<LightBounds> bounds;
+    std::vector<int> with_power;
+    for (int i = 0; i < static_cast<int>(lights.size()); ++i) {
+        if (!(lights.probability(i) > 0)) continue;
+        with_power.push_back(i);
+        auto const b = selection == LightSelection::tree ? lights.light(i).bounds() : std::nullopt;
+        if (!b) {
+            bright_.push_back(i);
+            continue;
+        }
+        place_[static_cast<std::size_t>(i)] = static_cast<int>(bounds.size());
+        lamp_.push_back(i);
+        bounds.push_back(*b);
+    }
+    if (with_power.size() == 1) only_ = with_power.front();
+    if (selection != LightSelection::tree || only_ >= 0) return;
+    tree_ = LightTree(bounds);
+    share_of_tree_ = tree_.empty() ? 0 : 1 / static_cast<float>(bright_.size() + 1);
+}
+
+LightSelector::Choice LightSelector::choose_among_many(LightReceiver const& receiver, float u) const {
+    if (selection_ == LightSelection::power) {
+        auto const choice = lights_.choose(u);
+        return {choice.index, choice.probability};
+    }
+    if (selection_ == LightSelection::tree && (u < share_of_tree_ || bright_.empty())) {
+        if (tree_.empty()) return {-1, 0};
+        auto const [lamp, probability] = tree_.choose(receiver, u / share_of_tree_);
+        if (lamp < 0) return {-1, 0};
+        return {lamp_[static_cast<std::size_t>(lamp)], share_of_tree_ * probability};
+    }
+    auto const count = static_cast<float>(bright_.size());
+    if (bright_.empty()) return {-1, 0};
+    float const rest = (u - share_of_tree_) / (1 - share_of_tree_);
+    std::size_t const i = std::min(static_cast<std::size_t>(rest * count), bright_.size() - 1);
+    return {bright_[i], (1 - share_of_tree_) / count};
+}
+
+float LightSelector::probability_among_many(LightReceiver const& receiver, int light) const {
+    if (!(lights_.probability(light) > 0)) return 0;
+    if (selection_ == LightSelection::power) return lights_.probability(light);
+    int const lamp = place_[static_cast<std::size_t>(light)];
+    if (lamp >= 0) return share_of_tree_ * tree_.probability(receiver, lamp);
+    return (1 - share_of_tree_) / static_cast<float>(bright_.size());
+}
+
+}  // namespace iride
