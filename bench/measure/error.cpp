@@ -154,7 +154,7 @@ Rows measure_peers(Settings const& settings) {
         Spread const t = spread_of(seconds), e = spread_of(relmse);
         double const paths = static_cast<double>(spp) * picture_size * picture_size;
         rows.push_back({{"scene", scene->name},
-                        {"integrator", scene->render.integrator},
+                        {"integrator", scene->render.integrator.text()},
                         {"seconds", t.median},
                         {"seconds_least", t.least},
                         {"seconds_most", t.most},

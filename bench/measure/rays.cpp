@@ -8,9 +8,10 @@ namespace iride::bench {
 namespace {
 
 // The rays of a render, in the order in which one thread asks for them.
-std::vector<RecordedRay> record(Scene const& scene, Integrator const& integrator, RenderPlan const& plan, int spp) {
+std::vector<RecordedRay> record(Scene const& scene, Integrator& integrator, RenderPlan const& plan, int spp) {
     std::vector<RecordedRay> rays;
-    RayStatistics statistics;
+    RayStatistics statistics, unrecorded;
+    integrator.prepare(scene, {0, 0, static_cast<std::uint32_t>(spp)}, unrecorded);
     statistics.recording = &rays;
     PathStarter const starter(scene, plan, scene.film.width, scene.film.height, scene.render.sampler, 0);
     std::vector<CameraPath> batch;

@@ -114,7 +114,7 @@ Rows measure_rays(Settings const& settings) {
     for (std::string const& name : scenes_of(settings, boxes_and_metals)) {
         settings.say("rays: " + name);
         auto const scene = load_for_picture(name);
-        RayRace const race(*scene, scene->render.integrator, spp);
+        RayRace const race(*scene, scene->render.integrator.text(), spp);
         std::vector<double> ratio, rendered, bare, paths;
         for (int round = 0; round < settings.rounds; ++round) {
             RayRates const r = race.round();
