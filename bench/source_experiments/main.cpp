@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// source_experiments [NAME ...]: the experiments by name, or all; what they print is docs/source-experiments.md.
+// source_experiments [NAME ...]: the experiments by name, or all; tables in Markdown.
 #include <array>
 #include <string_view>
 
