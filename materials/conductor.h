@@ -69,6 +69,7 @@ struct RoughMetal {
         }
         Parts const p = parts(wo, wi, h, lambda_o, lambda_i);
         float const white = p.once + p.often;
+        if (!(white > 0)) return std::nullopt;  // D and what is lost below the range of floats
         Lanes const F = fresnel(std::min(1.0f, wo.dot(h)));
         return std::optional<BsdfSample>(std::in_place, wi, F * (p.once / white) + multiple_fresnel * (p.often / white),
                                          Lanes(1), PerSteradian(white * wi.z()));
