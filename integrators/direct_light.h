@@ -29,6 +29,11 @@ struct DirectVertex {
     Surroundings const& in;
 };
 
+// What a lamp's sample brings along the path if nothing stands between, the lamp being asked with probability `choice`.
+// `beside_bsdf`: directions of the BSDF share in the same light.
+Radiance from_lamp(DirectVertex const& vertex, LightSample const& light, float choice, bool beside_bsdf,
+                   RayStatistics& statistics);
+
 class DirectLight {
   public:
     DirectLight(Scene const& scene, DirectLightSettings const& settings)
@@ -53,20 +58,21 @@ template <class Divisor>
 Radiance gathered(Scene const& scene, Ray ray, Surroundings in, Wavelengths const& wavelengths, Throughput weight,
                   RayStatistics& statistics, Divisor&& divisor) {
     Radiance L;
-    for (int passed = 0; passed < longest_path; ++passed) {
-        std::optional<Hit> hit = scene.accelerator->closest(ray, statistics);
-        Ray const arriving = ray;
-        bool const goes_on = travel(scene, hit ? &*hit : nullptr, wavelengths, ray, in, weight);
-        if (!hit) {
-            for (int e : scene.lights.environments())
-                L += weight * scene.lights.light(e).arriving(arriving.direction, wavelengths) *
-                     (1 / divisor(e, static_cast<Hit const*>(nullptr), passed > 0));
-            return L;
-        }
-        if (int const light = hit->shape->light; light >= 0)
-            L += weight * emitted_at(scene, *hit, arriving, wavelengths) * (1 / divisor(light, &*hit, passed > 0));
-        if (!goes_on) return L;
+    bool passed = false;
+    auto const meet = [&](Hit const& hit) {
+        if (int const light = hit.shape->light; light >= 0)
+            L += weight * emitted_at(scene, hit, ray, wavelengths) * (1 / divisor(light, &hit, passed));
+        passed = true;
+    };
+    std::optional<Hit> hit;
+    if (!reach_surface(scene, wavelengths, ray, in, weight, hit, statistics, meet)) return L;
+    if (hit) {
+        meet(*hit);
+        return L;
     }
+    for (int e : scene.lights.environments())
+        L += weight * scene.lights.light(e).arriving(ray.direction, wavelengths) *
+             (1 / divisor(e, static_cast<Hit const*>(nullptr), passed));
     return L;
 }
 

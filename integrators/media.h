@@ -34,6 +34,20 @@ inline bool travel(Scene const& scene, Hit const* hit, Wavelengths const& wavele
     return pass(scene, hit, ray, surroundings);
 }
 
+// Follow a ray to the first surface that is one, `hit`, or out of the scene; false if there is no end to surfaces that
+// are none. passed(hit) is called for each of those, with the weight that is left there.
+template <class Passed>
+bool reach_surface(Scene const& scene, Wavelengths const& wavelengths, Ray& ray, Surroundings& surroundings,
+                   Throughput& weight, std::optional<Hit>& hit, RayStatistics& statistics, Passed&& passed) {
+    hit = scene.accelerator->closest(ray, statistics);
+    for (int count = 0; travel(scene, hit ? &*hit : nullptr, wavelengths, ray, surroundings, weight); ++count) {
+        passed(*hit);
+        if (count == longest_path) return false;
+        hit = scene.accelerator->closest(ray, statistics);
+    }
+    return true;
+}
+
 // What a path that comes along wo and goes on along wi, both local, is in then.
 inline Surroundings behind(Scene const& scene, Hit const& hit, Interaction const& here, Direction const& wi,
                            Surroundings const& before) {

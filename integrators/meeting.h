@@ -15,6 +15,13 @@
 
 namespace iride {
 
+// |w.n_s| |v.n_g| / (|w.n_g| |v.n_s|).
+inline float shading_adjoint(Direction const& w, Direction const& v, Direction const& shading,
+                             Direction const& geometric) {
+    return std::abs(w.dot(shading)) * std::abs(v.dot(geometric)) /
+           (std::abs(w.dot(geometric)) * std::abs(v.dot(shading)));
+}
+
 struct Scattering {
     BsdfValue value;      // f(viewer, wi)
     LaneDensity density;  // of wi, as sampled for the viewer
@@ -49,9 +56,7 @@ class Meeting {
     }
     // The same through a Dirac lobe from `back` to v, relative to the weight of a viewer's ray; without indices.
     float adjoint_of_dirac(Direction const& v) const {
-        if (flat_) return 1;
-        float const w_s = std::abs(back_.dot(seen_.frame.normal)), v_s = std::abs(v.dot(seen_.frame.normal));
-        return w_s * cosine(v) / (cosine(back_) * v_s);
+        return flat_ ? 1 : shading_adjoint(back_, v, seen_.frame.normal, hit_.point.geometric_normal);
     }
     // (n_v / n_back)^2.
     Lanes squared_index_ratio(Scene const& scene, Wavelengths const& wavelengths, Direction const& v) const {

@@ -46,23 +46,14 @@ class Recursive final : public Integrator {
     // A ray of the given generation and all that come of it.
     void grow(Tree& tree, Ray ray, PathState state, Surroundings in, int generation) const {
         auto const& [scene, path, statistics, _] = tree;
+        float const per_reach = 1 / mean(state.reach);
         std::optional<Hit> hit;
-        float const reach = mean(state.reach);
-        for (int passed = 0;; ++passed) {
-            hit = scene.accelerator->closest(ray, statistics);
-            Ray const arriving = ray;
-            bool const goes_on = travel(scene, hit ? &*hit : nullptr, path.wavelengths, ray, in, state.weight);
-            if (hit) path.radiance += state.weight * emitted_at(scene, *hit, arriving, path.wavelengths) * (1 / reach);
-            if (!goes_on) break;
-            if (passed == longest_path) return void(path.complete = false);
-        }
-        if (!hit) {
-            for (int e : scene.lights.environments())
-                path.radiance +=
-                    state.weight * scene.lights.light(e).arriving(ray.direction, path.wavelengths) * (1 / reach);
-            return;
-        }
-        if (generation < generations_.most) scatter(tree, *hit, ray, state, in, generation);
+        if (!reach_surface(scene, path.wavelengths, ray, in, state.weight, hit, statistics, [&](Hit const& passed) {
+                path.radiance += state.weight * emitted_at(scene, passed, ray, path.wavelengths) * per_reach;
+            }))
+            return void(path.complete = false);
+        path.radiance += state.weight * seen_along(scene, ray, hit, path.wavelengths) * per_reach;
+        if (hit && generation < generations_.most) scatter(tree, *hit, ray, state, in, generation);
     }
 
     void scatter(Tree& tree, Hit& hit, Ray const& ray, PathState const& state, Surroundings const& in,

@@ -80,6 +80,15 @@ inline LightReceiver receiver(Scene const& scene, Hit const& hit, Interaction co
     return {hit.point.position, one_side ? here.geometric_normal : Direction(0, 0, 0)};
 }
 
+// The same of what ends the ray, lights at infinity where nothing does.
+inline Radiance seen_along(Scene const& scene, Ray const& ray, std::optional<Hit> const& hit,
+                           Wavelengths const& wavelengths) {
+    if (hit) return emitted_at(scene, *hit, ray, wavelengths);
+    Radiance L;
+    for (int e : scene.lights.environments()) L += scene.lights.light(e).arriving(ray.direction, wavelengths);
+    return L;
+}
+
 // Russian roulette: go on with probability q = min(1, largest lane of the throughput) and divide by q. Throughput is
 // weight / mean(reach), which does not depend on which lane is the hero. With q >= the albedo of the last scattering
 // the variance is finite (q > rho^2); nothing is cut off. [Arvo 1990]

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "integrators/photon/photon_cache.h"
 
-#include "integrators/photon/direct_light.h"
+#include "integrators/direct_light.h"
 
 namespace iride {
 
@@ -12,6 +12,18 @@ constexpr int first_neighbours = 10;
 // Of the median distance that holds k photons, how far k are looked for: where light is weak all within count.
 constexpr float widest_search = 4;
 constexpr std::uint64_t photon_numbers = 0x70686f746f6eull;  // apart from the numbers of camera paths
+
+// Of one lamp, chosen by power; no other technique shares in it.
+Radiance direct_light(CachedPoint const& point) {
+    LightSet const& lights = point.scene.lights;
+    if (!lights.has_power()) return {};
+    GatherPoint const& at = point.at;
+    auto const choice = lights.choose(point.light.choice);
+    auto const light = lights.light(choice.index).sample(at.hit.point.position, point.wavelengths, point.light.place);
+    if (!light) return {};
+    return from_lamp({point.scene, at.hit, at.here, point.wavelengths, at.state, point.in}, *light, choice.probability,
+                     false, point.statistics);
+}
 
 }  // namespace
 

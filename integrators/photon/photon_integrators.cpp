@@ -48,14 +48,14 @@ class PhotonIntegrator final : public Integrator {
         bool lamps_are_seen = true, gathering = gathers_;
         for (int bounce = 0;; ++bounce) {
             float const per_reach = 1 / mean(state.reach);
-            std::optional<Hit> hit = scene.accelerator->closest(ray, statistics);
-            for (int passed = 0; travel(scene, hit ? &*hit : nullptr, wavelengths, ray, in, state.weight);) {
-                if (lamps_are_seen)
-                    path.radiance += state.weight * emitted_at(scene, *hit, ray, wavelengths) * per_reach;
-                if (++passed > longest_path) return void(path.complete = false);
-                hit = scene.accelerator->closest(ray, statistics);
-            }
-            if (lamps_are_seen) path.radiance += state.weight * seen(scene, hit, ray, wavelengths) * per_reach;
+            auto const add = [&](Radiance const& seen) {
+                if (lamps_are_seen) path.radiance += state.weight * seen * per_reach;
+            };
+            std::optional<Hit> hit;
+            if (!reach_surface(scene, wavelengths, ray, in, state.weight, hit, statistics,
+                               [&](Hit const& passed) { add(emitted_at(scene, passed, ray, wavelengths)); }))
+                return void(path.complete = false);
+            add(seen_along(scene, ray, hit, wavelengths));
             if (!hit) return;
             if (bounce >= max_bounces_) return void(path.complete = max_bounces_ < longest_path);
 
@@ -89,14 +89,6 @@ class PhotonIntegrator final : public Integrator {
             ray = spawn_ray(hit->point, wi);
             if (bounce >= roulette_from && !survives<true>(state, chances.x)) return;
         }
-    }
-
-    static Radiance seen(Scene const& scene, std::optional<Hit> const& hit, Ray const& ray,
-                         Wavelengths const& wavelengths) {
-        if (hit) return emitted_at(scene, *hit, ray, wavelengths);
-        Radiance L;
-        for (int e : scene.lights.environments()) L += scene.lights.light(e).arriving(ray.direction, wavelengths);
-        return L;
     }
 
     PhotonCache photons_;

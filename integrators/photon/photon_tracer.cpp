@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include "integrators/media.h"
+#include "integrators/meeting.h"
 
 namespace iride {
 
@@ -40,12 +41,9 @@ class PhotonWalk {
         PathState state;
         bool specular = true;
         for (int scattered = 0; scattered <= shot_.max_scatterings; ++scattered) {
-            std::optional<Hit> hit = scene_.accelerator->closest(ray, statistics_);
-            for (int passed = 0; travel(scene_, hit ? &*hit : nullptr, wavelengths, ray, in, state.weight); ++passed) {
-                if (passed == longest_path) return;
-                hit = scene_.accelerator->closest(ray, statistics_);
-            }
-            if (!hit) return;
+            std::optional<Hit> hit;
+            if (!reach_surface(scene_, wavelengths, ray, in, state.weight, hit, statistics_, [](Hit const&) {}) || !hit)
+                return;
             sampler.begin_vertex(static_cast<std::uint32_t>(scattered));
             Sample2 const chances = sampler.next2();  // x: roulette, y: which part of a mixture
             float const lobe = sampler.next();
@@ -81,10 +79,9 @@ class PhotonWalk {
     Throughput scattered_power(Interaction const& here, Hit const& hit, BsdfSample const& sample, Direction const& w,
                                Direction const& v, Surroundings const& in, Wavelengths const& wavelengths) const {
         Direction const &g = here.geometric_normal, &n = here.frame.normal;
-        float const w_g = std::abs(w.dot(g)), v_g = std::abs(v.dot(g)), w_n = std::abs(w.dot(n)),
-                    v_n = std::abs(v.dot(n));
-        if (!(w_g > 0 && v_n > 0)) return Throughput(0);
-        float const shading = n == g ? 1.0f : w_n * v_g / (w_g * v_n);
+        float const v_n = std::abs(v.dot(n));
+        if (!(std::abs(w.dot(g)) > 0 && v_n > 0)) return Throughput(0);
+        float const shading = n == g ? 1.0f : shading_adjoint(w, v, n, g);
         if (sample.density) {
             BsdfValue const f = here.bsdf.evaluate(sample.wi, here.wo).value;
             return Throughput(f.lane * (v_n * shading / sample.density->value));
