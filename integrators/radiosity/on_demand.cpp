@@ -4,7 +4,6 @@
 namespace iride::radiosity {
 
 Solution shoot_on_demand(System const& system, PatchMesh const& mesh, RowOfFactors const& row, Stop const& stop) {
-    using Row = Eigen::Array<double, 1, Eigen::Dynamic>;
     Spectra shot = Spectra::Zero(system.patches(), system.wavelengths()),
             unshot = system.emission.colwise() * system.area;
     Eigen::ArrayXd urgency = unshot.rowwise().sum();
@@ -25,10 +24,7 @@ Solution shoot_on_demand(System const& system, PatchMesh const& mesh, RowOfFacto
         });
         ++steps;
     }
-    double const total = system.area.sum();
-    Row const mean = (system.reflectance.colwise() * system.area).colwise().sum() / total,
-              ambient = unshot.colwise().sum() / (total * (1 - mean));
-    return {(shot + unshot).colwise() / system.area + system.reflectance.rowwise() * ambient, steps,
+    return {(shot + unshot).colwise() / system.area + system.reflectance.rowwise() * ambient(system, unshot), steps,
             emitted > 0 ? urgency.sum() / emitted : 0};
 }
 

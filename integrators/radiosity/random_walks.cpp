@@ -10,8 +10,6 @@ namespace iride::radiosity {
 
 namespace {
 
-using Row = Eigen::Array<double, 1, Eigen::Dynamic>;  // [wavelength]
-
 // What one walk says of the patches it came by: squares want the sum of a patch's scores first.
 class Scores {
   public:

@@ -9,8 +9,6 @@ namespace iride::radiosity {
 
 namespace {
 
-using Row = Eigen::Array<double, 1, Eigen::Dynamic>;  // [wavelength]
-
 // Hierarchical patches are flat: they do not see themselves.
 Eigen::ArrayXd own_factors(System const& s) {
     return s.transport ? Eigen::ArrayXd::Zero(s.patches()) : Eigen::ArrayXd(s.form_factors.diagonal().array());
@@ -90,17 +88,10 @@ class Southwell : public Solver {
 
 class Shooting final : public Southwell {
   public:
-    explicit Shooting(System const& s) : Southwell(s) {
-        Row const mean_reflectance = (s.reflectance.colwise() * s.area).colwise().sum() / s.area.sum();
-        ambient_per_power_ = 1 / (s.area.sum() * (1 - mean_reflectance));
-    }
+    using Southwell::Southwell;
     Spectra radiosity() const override {
-        Row const ambient = unshot_.colwise().sum() * ambient_per_power_;
-        return (shot_ + unshot_).colwise() / s_.area + s_.reflectance.rowwise() * ambient;
+        return (shot_ + unshot_).colwise() / s_.area + s_.reflectance.rowwise() * ambient(s_, unshot_);
     }
-
-  private:
-    Row ambient_per_power_;
 };
 
 // A wavelength has steps of its own; the product with F serves all of them.

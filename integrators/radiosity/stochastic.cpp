@@ -11,8 +11,6 @@ namespace iride::radiosity {
 
 namespace {
 
-using Row = Eigen::Array<double, 1, Eigen::Dynamic>;  // [wavelength]
-
 // Power emitted and reflected over power emitted, if light were even: lines per walk.
 double lines_per_walk(System const& s) {
     double const emitted = (s.emission.colwise() * s.area).sum();

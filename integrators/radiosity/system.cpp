@@ -22,6 +22,12 @@ Spectra residual(System const& system, Spectra const& b) {
     return system.emission - b + system.reflectance * gathered(system, b);
 }
 
+Row ambient(System const& system, Spectra const& unshot) {
+    double const area = system.area.sum();
+    Row const mean_reflectance = (system.reflectance.colwise() * system.area).colwise().sum() / area;
+    return unshot.colwise().sum() / (area * (1 - mean_reflectance));
+}
+
 double reciprocity_defect(System const& system) {
     FormFactors const power = system.area.matrix().asDiagonal() * system.form_factors;
     double const largest = power.coeffs().maxCoeff();

@@ -14,6 +14,7 @@ namespace iride::radiosity {
 
 using FormFactors = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 using Spectra = Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;  // [patch][wavelength]
+using Row = Eigen::Array<double, 1, Eigen::Dynamic>;                                    // [wavelength]
 
 // The product with F where F is not a matrix of its own.
 class Transport {
@@ -38,6 +39,10 @@ Spectra gathered(System const& system, Spectra const& b);
 
 // e - M b: what a radiosity still lacks. [W m^-2 nm^-1]
 Spectra residual(System const& system, Spectra const& b);
+
+// The ambient term of progressive refinement: what unshot power makes if it spreads evenly over all surfaces,
+// sum / (A (1 - mean rho)). [W m^-2 nm^-1]
+Row ambient(System const& system, Spectra const& unshot);
 
 // The largest |A_i F_ij - A_j F_ji| over the largest A_i F_ij, and the largest |1 - sum_j F_ij|.
 double reciprocity_defect(System const& system);
