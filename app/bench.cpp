@@ -97,7 +97,7 @@ int run_bench(Options& o) {
         if (std::ranges::none_of(integrator_entries(), [&](IntegratorEntry const& e) { return name == e.name; }))
             throw InputError({}, "--integrator", fmt::format("unknown integrator '{}'", name));
     if (!o.json.empty()) check_writable(o.json);
-    if (!o.plot.empty()) check_picture_name("--plot", o.plot);
+    if (!o.plot.empty()) check_output("--plot", o.plot, ".png");
     o.settings.references = o.references.empty() ? default_references() : std::filesystem::path(o.references);
     o.settings.say = [](std::string const& text) { fmt::print(stderr, "  {}\n", text); };
     nlohmann::ordered_json out{{"version", IRIDE_VERSION},

@@ -12,6 +12,7 @@
 #include "app/colour.h"
 #include "app/given_spectra.h"
 #include "app/plot.h"
+#include "base/atomic_file.h"
 #include "base/diagnostics.h"
 #include "colour/description.h"
 #include "colour/illuminant.h"
@@ -202,7 +203,7 @@ std::vector<Mark> marks_of(Plane const& plane, Options const& o) {
 }
 
 int run_diagram(Options const& o) {
-    check_picture_name("--output", o.output);
+    check_output("--output", o.output, ".png");
     Plane const plane = plane_of(o.space);
     Observer const& eye = observer(o.observer);
     SpectralLocus const locus(eye);

@@ -10,6 +10,7 @@
 #include "app/colour.h"
 #include "app/given_spectra.h"
 #include "app/palette.h"
+#include "base/atomic_file.h"
 #include "base/diagnostics.h"
 #include "colour/description.h"
 #include "colour/illuminant.h"
@@ -117,7 +118,7 @@ void plot(std::vector<GivenSpectrum> const& spectra, std::string const& file) {
 }
 
 int run_spectrum(Options const& o) {
-    if (!o.plot.empty()) check_picture_name("--plot", o.plot);
+    if (!o.plot.empty()) check_output("--plot", o.plot, ".png");
     ColourDescriber const describer(illuminant(o.illuminant), observer(o.observer));
     std::vector<GivenSpectrum> const spectra = given_spectra(o.names, o.quantity);
     std::vector<ColourDescription> descriptions;

@@ -27,9 +27,9 @@ Command add_compare(CLI::App& app);
 Command add_colour(CLI::App& app);
 Command add_material(CLI::App& app);
 Command add_bench(CLI::App& app);
+Command add_depth_cue(CLI::App& app);
 
 // --plan-disable NAME, of render and plan.
 void add_plan_disable(CLI::App& parser, std::vector<std::string>& disabled);
-Command add_depth_cue(CLI::App& app);
 
 }  // namespace iride

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "app/command.h"
+#include "base/atomic_file.h"
 #include "base/diagnostics.h"
 
 namespace iride {
@@ -29,8 +30,7 @@ int run_depth_cue(Options const& o) {
         if (!std::isfinite(o.colour[c])) throw InputError({}, "--colour", "allowed: three finite numbers");
         cue.colour[c] = o.colour[c];
     }
-    if (std::filesystem::path(o.out).extension() != ".exr")
-        throw InputError({}, "--output", fmt::format("found '{}', but a name ending in .exr is wanted", o.out));
+    check_output("--output", o.out, ".exr");
     apply_depth_cue(cue, o.in, o.out);
     return exit_done;
 }

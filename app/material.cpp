@@ -10,6 +10,7 @@
 #include "app/material_colour.h"
 #include "app/material_plot.h"
 #include "app/plot.h"
+#include "base/atomic_file.h"
 #include "base/diagnostics.h"
 #include "colour/difference.h"
 
@@ -147,7 +148,7 @@ void print_text(Answer const& a, std::string const& illuminant) {
 }
 
 int run_material(Options const& o) {
-    if (!o.plot.empty()) check_picture_name("--plot", o.plot);
+    if (!o.plot.empty()) check_output("--plot", o.plot, ".png");
     MaterialColorimetry const colorimetry(o.illuminant);
     std::vector<GivenMaterial> const materials = given_materials(o.name);
     std::vector<Answer> answers;

@@ -20,18 +20,18 @@ struct Options {
 
 int run_merge(Options const& o) {
     std::filesystem::path const out = o.output;
-    if (out.extension() != ".exr")
-        throw InputError({}, "--output", fmt::format("found '{}', but a name ending in .exr is wanted", o.output));
-    check_writable(out);
+    check_output("--output", out, ".exr");
     std::vector<Checkpoint> parts;
     for (std::string const& name : o.parts) parts.push_back(read_checkpoint(name));
     output_space(o.colourspace, parts.front().settings.scene_white);  // to refuse an unknown one
     std::vector<Diagnostic> wrong;
     for (std::size_t i = 0; i < parts.size(); ++i)
         for (std::size_t k = 0; k < i; ++k)
-            for (std::string const& obstacle : obstacles_to_merging(parts[k], parts[i]))
-                wrong.push_back(
-                    {{o.parts[i]}, "", fmt::format("cannot be merged with {}: its {}", o.parts[k], obstacle)});
+            for (std::string const& obstacle : obstacles_to_merging(parts[k], parts[i])) {
+                Diagnostic& d = wrong.emplace_back();
+                d.where.file = o.parts[i];
+                d.message = fmt::format("cannot be merged with {}: {}", o.parts[k], obstacle);
+            }
     if (!wrong.empty()) throw InputError(std::move(wrong));
     ExrSettings settings = parts.front().settings;
     settings.colourspace = o.colourspace;

@@ -66,12 +66,6 @@ double round_tick(double length, int most) {
     return 10 * power;
 }
 
-void check_picture_name(std::string const& option, std::filesystem::path const& path) {
-    if (path.extension() != ".png")
-        throw InputError({}, option, fmt::format("found '{}', but a name ending in .png is wanted", path.string()));
-    check_writable(path);
-}
-
 Plot::Plot(int width, int height, PlotAxis x, PlotAxis y, int right)
     : width_(width), height_(height), x_(std::move(x)), y_(std::move(y)) {
     cairo_ = white_page(static_cast<int>(left) + width + right, static_cast<int>(top + bottom) + height);

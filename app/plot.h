@@ -103,7 +103,4 @@ class PlotPage {
     std::shared_ptr<struct _cairo> cairo_;
 };
 
-// Refuses a name that does not end in .png or cannot be written, before any work. Throws InputError.
-void check_picture_name(std::string const& option, std::filesystem::path const& path);
-
 }  // namespace iride

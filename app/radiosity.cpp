@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // iride radiosity SCENE: patches, form factors and the solution for every wavelength, as a summary or as JSON.
-#include "integrators/radiosity/radiosity.h"
-#include "base/atomic_file.h"
-#include "integrators/radiosity/solution_file.h"
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "app/command.h"
+#include "base/atomic_file.h"
+#include "base/clock.h"
+#include "integrators/radiosity/radiosity.h"
+#include "integrators/radiosity/solution_file.h"
 
 namespace iride {
 
@@ -73,19 +73,14 @@ void print_summary(SceneRadiosity const& solution, Settings const& settings, dou
 int run(Options const& o) {
     auto const scene = load_scene(find_scene(o.scene));
     RenderPlan const plan = make_plan(*scene);
-    if (!o.save.empty()) {
-        if (std::filesystem::path(o.save).extension() != ".ply")
-            throw InputError({}, "--save", fmt::format("found '{}', but a name ending in .ply is wanted", o.save));
-        check_writable(o.save);
-    }
-    auto const start = std::chrono::steady_clock::now();
+    if (!o.save.empty()) check_output("--save", o.save, ".ply");
+    auto const start = Clock::now();
     SceneRadiosity const solution(*scene, plan.wavelengths, o.settings);
     if (!o.save.empty()) save_solution(o.save, *scene, *solution.field());
     if (o.json)
         print_json(*scene, solution, o.settings);
     else
-        print_summary(solution, o.settings,
-                      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+        print_summary(solution, o.settings, seconds_since(start));
     for (std::string const& remark : solution.report().remarks) fmt::print(stderr, "note: {}\n", remark);
     return exit_done;
 }

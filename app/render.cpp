@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <csignal>
 #include <memory>
 #include <mutex>
@@ -14,6 +13,7 @@
 
 #include "app/command.h"
 #include "base/atomic_file.h"
+#include "base/clock.h"
 #include "film/checkpoint.h"
 #include "film/preview.h"
 #include "integrators/adaptive.h"
@@ -93,7 +93,6 @@ class Progress {
     }
 
   private:
-    using Clock = std::chrono::steady_clock;
     bool shown_;
     int spp_;
     Clock::time_point start_, last_;
@@ -106,11 +105,9 @@ struct Outputs {
 
 Outputs outputs_of(Options const& o, Scene const& scene) {
     Outputs const out{o.output.empty() ? scene.name + ".exr" : o.output, o.preview, o.report};
-    if (out.exr.extension() != ".exr")
-        fail("--output", fmt::format("found '{}', but a name ending in .exr is wanted", out.exr.string()));
-    if (!out.preview.empty() && out.preview.extension() != ".png")
-        fail("--preview", fmt::format("found '{}', but a name ending in .png is wanted", out.preview.string()));
-    for (std::filesystem::path const& p : {out.exr, out.preview, out.report, std::filesystem::path(o.checkpoint)})
+    check_output("--output", out.exr, ".exr");
+    if (!out.preview.empty()) check_output("--preview", out.preview, ".png");
+    for (std::filesystem::path const& p : {out.report, std::filesystem::path(o.checkpoint)})
         if (!p.empty()) check_writable(p);
     return out;
 }
@@ -125,7 +122,7 @@ class Saving {
         Checkpoint found = read_checkpoint(path_);
         std::vector<Diagnostic> wrong;
         for (std::string const& difference : differences(found, state_))
-            wrong.push_back({{path_.string()}, "--checkpoint", "is of another render: its " + difference});
+            wrong.push_back({{path_.string()}, "--checkpoint", "is of another render: " + difference});
         if (!wrong.empty()) throw InputError(std::move(wrong));
         state_.films = std::move(found.films);
         state_.round = found.round;
@@ -149,7 +146,6 @@ class Saving {
     }
 
   private:
-    using Clock = std::chrono::steady_clock;
     std::filesystem::path path_;
     double every_;  // seconds
     Checkpoint state_;

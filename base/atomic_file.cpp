@@ -71,6 +71,13 @@ void AtomicFile::commit() {
     committed_ = true;
 }
 
+void check_output(std::string const& option, std::filesystem::path const& target, std::string const& extension) {
+    if (target.extension() != extension)
+        throw InputError({}, option,
+                         "found '" + target.string() + "', but a name ending in " + extension + " is wanted");
+    check_writable(target);
+}
+
 void write_file(std::filesystem::path const& target, std::string_view content) {
     AtomicFile file(target);
     std::ofstream out(file.temporary(), std::ios::binary);

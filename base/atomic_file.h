@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 namespace iride {
@@ -27,6 +28,9 @@ class AtomicFile {
 
 // The checks of the constructor alone: to say that an output cannot be written before any work is done.
 void check_writable(std::filesystem::path const& target);
+
+// The same, and that its name ends as its format wants it (".exr"). Throws InputError for `option`.
+void check_output(std::string const& option, std::filesystem::path const& target, std::string const& extension);
 
 // Write a small text file whole.
 void write_file(std::filesystem::path const& target, std::string_view content);

@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdlib>
 #include <functional>
 
+#include "base/clock.h"
 #include "base/diagnostics.h"
 #include "colour/colour_config.h"
 
@@ -19,13 +19,12 @@ using Picture = std::vector<float>;
 
 // Mpixel/s, the best of `rounds`: noise of a shared machine only ever slows down.
 double speed(Picture const& picture, int rounds, std::function<void(Picture&)> const& convert) {
-    using Clock = std::chrono::steady_clock;
     double best = 0;
     for (int i = 0; i < rounds; ++i) {
         Picture copy = picture;
         auto const start = Clock::now();
         convert(copy);
-        double const seconds = std::chrono::duration<double>(Clock::now() - start).count();
+        double const seconds = seconds_since(start);
         best = std::max(best, static_cast<double>(picture.size()) / 3e6 / seconds);
     }
     return best;

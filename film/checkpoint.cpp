@@ -67,7 +67,7 @@ std::vector<std::string> differing(Checkpoint const& a, Checkpoint const& b, aut
     Facts const first = facts_of(a), second = facts_of(b);
     for (std::size_t i = 0; i < first.size(); ++i)
         if (is_asked(first[i].first) && first[i].second != second[i].second)
-            all.push_back(fmt::format("{} is {}, here {}", first[i].first, first[i].second, second[i].second));
+            all.push_back(fmt::format("its {} is {}, here {}", first[i].first, first[i].second, second[i].second));
     return all;
 }
 

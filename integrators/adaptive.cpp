@@ -2,9 +2,9 @@
 #include "integrators/adaptive.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
+#include "base/clock.h"
 #include "base/random.h"
 #include "film/checkpoint.h"
 
@@ -117,7 +117,7 @@ class Rounds {
         for (Film const& film : films_) total += static_cast<double>(film.total_samples());
         return total / static_cast<double>(films_.front().pixels().size());
     }
-    double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+    double seconds() const { return seconds_since(start_); }
     RenderReport report() {
         if (report_.paths > 0) report_.embree_share /= static_cast<double>(report_.paths);
         report_.seconds = seconds();
@@ -126,7 +126,6 @@ class Rounds {
     }
 
   private:
-    using Clock = std::chrono::steady_clock;
     double share() const { return settings_.seconds ? std::min(1.0, seconds() / *settings_.seconds) : 0; }
 
     Scene const& scene_;

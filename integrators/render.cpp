@@ -9,8 +9,9 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
+
+#include "base/clock.h"
 
 namespace iride {
 
@@ -19,9 +20,6 @@ namespace {
 constexpr int tile_size = 16;  // pixels: small enough to balance, large enough to keep the caches warm
 constexpr std::uint32_t batches_per_timing =
     32;  // every so many batches of a thread, one tells the time spent in Embree
-
-using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 struct ThreadStatistics {
     RayStatistics rays;
@@ -34,7 +32,12 @@ class Batch {
   public:
     Batch(Scene const& scene, Integrator const& integrator, PathStarter const& starter, Film& film,
           ThreadStatistics& statistics)
-        : scene_(scene), integrator_(integrator), starter_(starter), film_(film), statistics_(statistics) {}
+        : scene_(scene),
+          integrator_(integrator),
+          splats_(integrator.splats()),
+          starter_(starter),
+          film_(film),
+          statistics_(statistics) {}
 
     void start(int x, int y, std::uint32_t sample) {
         if (count_ == 0) begin_timing();
@@ -68,7 +71,7 @@ class Batch {
             film_.reject(p.x, p.y, Rejection::negative);
         else
             film_.add(p.x, p.y, path.wavelengths, path.radiance);
-        if (!integrator_.splats() || !path.complete) return;
+        if (!splats_ || !path.complete) return;
         film_.count_light_path();
         for (Splat const& splat : path.splats)
             starter_.spread(splat, [&](int x, int y, float weight) {
@@ -78,6 +81,7 @@ class Batch {
 
     Scene const& scene_;
     Integrator const& integrator_;
+    bool splats_;
     PathStarter const& starter_;
     Film& film_;
     ThreadStatistics& statistics_;

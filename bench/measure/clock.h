@@ -3,15 +3,11 @@
 #pragma once
 
 #include <algorithm>
-#include <chrono>
 #include <vector>
 
-namespace iride::bench {
+#include "base/clock.h"
 
-using Clock = std::chrono::steady_clock;
-inline double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
+namespace iride::bench {
 
 struct Spread {
     double median, least, most;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "bench/measure/benchmark.h"
 #include "experiment.h"
 
 namespace iride::bench {
@@ -34,16 +35,6 @@ double mean_of(Film const& film) {
     return sum / (film.width() * film.height());
 }
 
-// Of the least-squares line through the logarithms.
-double slope(std::vector<std::pair<double, double>> const& points) {
-    double n = 0, x = 0, y = 0, xx = 0, xy = 0;
-    for (auto const& [samples, error] : points) {
-        double const a = std::log(samples), b = std::log(error);
-        n += 1, x += a, y += b, xx += a * a, xy += a * b;
-    }
-    return (n * xy - x * y) / (n * xx - x * x);
-}
-
 }  // namespace
 
 void convergence() {
@@ -71,7 +62,7 @@ void convergence() {
                 points.emplace_back(n, e);
                 fmt::print(" {:.2e} |", e);
             }
-            fmt::print(" {:.2f} |\n", slope(points));
+            fmt::print(" {:.2f} |\n", fit_power_law(points).slope);
         }
     }
 }

@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <string>
 
+#include "bench/measure/scene_text.h"
 #include "integrators/render.h"
 
 namespace iride::bench {
@@ -22,12 +22,6 @@ void light_strategies();
 void russian_roulette();
 void convergence();
 void lamp_shapes();
-
-inline std::unique_ptr<Scene> scene_from(std::string const& text) {
-    auto const path = std::filesystem::temp_directory_path() / "iride-experiment.json";
-    std::ofstream(path, std::ios::binary) << text;
-    return load_scene(path);
-}
 
 struct Rendered {
     Film film;

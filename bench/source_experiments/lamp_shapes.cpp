@@ -3,6 +3,7 @@
 // the ratios of their times.
 #include <algorithm>
 
+#include "bench/measure/clock.h"
 #include "experiment.h"
 
 namespace iride::bench {
@@ -38,9 +39,8 @@ void lamp_shapes() {
             ratio.push_back(b.back() / a.back());
             error_a = q.film.relative_error(), error_b = s.film.relative_error();
         }
-        for (auto* v : {&ratio, &a, &b}) std::ranges::sort(*v);
-        fmt::print("| {} | {:.2f} | {:.2f} | {:.2f} | {:.4f} | {:.4f} |\n", integrator, a[rounds / 2], b[rounds / 2],
-                   ratio[rounds / 2], error_a, error_b);
+        fmt::print("| {} | {:.2f} | {:.2f} | {:.2f} | {:.4f} | {:.4f} |\n", integrator, spread_of(a).median,
+                   spread_of(b).median, spread_of(ratio).median, error_a, error_b);
     }
 }
 
