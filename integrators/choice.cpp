@@ -26,13 +26,6 @@ bool receives_caustics(NamedMaterial const& m) {
     return is_one_of(m.type, types);
 }
 
-std::string names_of(Scene const& scene, bool (*wanted)(NamedMaterial const&)) {
-    std::string names;
-    for (NamedMaterial const& m : scene.materials)
-        if (wanted(m)) names += (names.empty() ? "" : ", ") + m.name;
-    return names;
-}
-
 }  // namespace
 
 AutomaticChoice choose_integrator(Scene const& scene, RenderPlan const& plan) {

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "integrators/light_walk.h"
 
 namespace iride {
@@ -74,18 +76,13 @@ void check_light_paths_possible(Scene const& scene, RenderPlan const& plan, char
 std::unique_ptr<Integrator> make_light_tracing(Scene const& scene, RenderPlan const& plan, IntegratorOptions&) {
     constexpr char const* name = "light-tracing";
     check_light_paths_possible(scene, plan, name);
-    std::string mirrors;
-    bool any_density = false;
-    for (NamedMaterial const& m : scene.materials) {
-        any_density |= m.material->traits.has_density;
-        if (has_dirac_lobe(m)) mirrors += (mirrors.empty() ? "" : ", ") + m.name;
-    }
-    if (!any_density)
+    if (std::ranges::none_of(scene.materials, [](NamedMaterial const& m) { return m.material->traits.has_density; }))
         throw InputError({}, "integrator",
                          fmt::format("'{}' cannot render this scene: every surface is a mirror, glass or black, and no "
                                      "light path can be shown to the camera; 'path' can",
                                      name));
     std::vector<std::string> remarks;
+    std::string const mirrors = names_of(scene, has_dirac_lobe);
     if (!mirrors.empty())
         remarks.push_back(
             fmt::format("{} leaves out what the camera sees by way of mirror images and glass: {}", name, mirrors));

@@ -10,14 +10,14 @@
 
 namespace iride {
 
-namespace {
-
 std::string names_of(Scene const& scene, bool (*wanted)(NamedMaterial const&)) {
     std::string names;
     for (NamedMaterial const& m : scene.materials)
         if (wanted(m)) names += (names.empty() ? "" : ", ") + m.name;
     return names;
 }
+
+namespace {
 
 // The union of the lamps' spectra, cut to what observer and bands can see.
 WavelengthRange seen_range(Scene const& scene) {

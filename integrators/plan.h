@@ -10,6 +10,9 @@
 
 namespace iride {
 
+// The scene's materials that are wanted, by name and separated by commas.
+std::string names_of(Scene const& scene, bool (*wanted)(NamedMaterial const&));
+
 struct RenderPlan {
     bool dispersion = false;      // lanes part company somewhere: carry their reach
     bool media = false;           // bodies absorb or lie in one another: carry what a path is in

@@ -22,13 +22,12 @@ CameraImportance::CameraImportance(CameraSettings const& s, int width, int heigh
       picture_height_(static_cast<float>(height)),
       aperture_radius_(static_cast<float>(s.aperture_radius)),
       focus_distance_(s.aperture_radius > 0 ? static_cast<float>(s.focus_distance) : 1) {
-    VectorDouble const forward = (s.target - s.eye).normalized();
-    VectorDouble const right = forward.cross(s.up).normalized();
+    CameraAxes const axes(s);
     double const half = perspective_ ? std::tan(radians(s.field_deg) / 2) : s.window;
     eye_ = s.eye.cast<float>();
-    forward_ = forward.cast<float>();
-    right_ = right.cast<float>();
-    up_ = right.cross(forward).cast<float>();
+    forward_ = axes.forward.cast<float>();
+    right_ = axes.right.cast<float>();
+    up_ = axes.up.cast<float>();
     half_height_ = static_cast<float>(half);
     half_width_ = static_cast<float>(half * width / height);
     per_pixel_area_ = static_cast<float>(square(height / (2 * half)));

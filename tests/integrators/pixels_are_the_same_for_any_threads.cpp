@@ -3,7 +3,7 @@
 // the passes in which the samples come, which decide what paths are followed together.
 #include <catch2/catch.hpp>
 
-#include "support/scenes.h"
+#include "support/same_bits.h"
 
 using namespace iride;
 
@@ -15,17 +15,7 @@ TEST_CASE("any threads, tile order and passes give the same bits, with dispersio
         scene->film.height = 50;
         scene->film.band_count = 7;
         auto const picture = [&](int threads, bool reversed, bool doubling_passes = false) {
-            RenderSettings settings{.spp = 8, .seed = 5, .threads = threads, .reversed_tiles = reversed};
-            if (doubling_passes) settings.stop_at = ErrorTarget::relative(1e-9);  // never reached: 1, 1, 2, 4 samples instead of 4, 4
-            Film const film = test::rendered(*scene, "path", settings);
-            std::vector<double> values;
-            for (int y = 0; y < 50; ++y)
-                for (int x = 0; x < 70; ++x) {
-                    Xyz const m = film.mean(x, y), v = film.variance(x, y);
-                    values.insert(values.end(), {m.X, m.Y, m.Z, v.X, v.Y, v.Z});
-                    for (int b = 0; b < 7; ++b) values.push_back(film.band(x, y, b));
-                }
-            return values;
+            return test::picture_values(*scene, "path", threads, reversed, doubling_passes);
         };
         INFO(name);
         RenderPlan const plan = make_plan(*scene);

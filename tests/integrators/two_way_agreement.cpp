@@ -2,6 +2,7 @@
 // `bidirectional` and `light-tracing` against `path` and `reference_path` by a z-test on small scenes, and against
 // closed forms.
 #include "support/agreement.h"
+#include "support/same_bits.h"
 
 using namespace iride;
 using namespace iride::test;
@@ -150,18 +151,7 @@ TEST_CASE("bidirectional pictures are the same bits for any threads, tile order 
         scene->film.height = 50;
         scene->film.band_count = 7;
         auto const picture = [&](int threads, bool reversed, bool doubling_passes = false) {
-            RenderSettings settings{.spp = 8, .seed = 5, .threads = threads, .reversed_tiles = reversed};
-            if (doubling_passes)
-                settings.stop_at = ErrorTarget::parse("1e-9");  // never reached: 1, 1, 2, 4 samples instead of 4, 4
-            Film const film = rendered(*scene, "bidirectional", settings);
-            std::vector<double> values;
-            for (int y = 0; y < 50; ++y)
-                for (int x = 0; x < 70; ++x) {
-                    Xyz const m = film.mean(x, y), v = film.variance(x, y);
-                    values.insert(values.end(), {m.X, m.Y, m.Z, v.X, v.Y, v.Z});
-                    for (int b = 0; b < 7; ++b) values.push_back(film.band(x, y, b));
-                }
-            return values;
+            return test::picture_values(*scene, "bidirectional", threads, reversed, doubling_passes);
         };
         INFO(name);
         auto const one = picture(1, false);
