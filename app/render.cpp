@@ -121,8 +121,12 @@ class Saving {
         if (path_.empty() || !std::filesystem::exists(path_, ignored)) return;
         Checkpoint found = read_checkpoint(path_);
         std::vector<Diagnostic> wrong;
-        for (std::string const& difference : differences(found, state_))
-            wrong.push_back({{path_.string()}, "--checkpoint", "is of another render: " + difference});
+        for (std::string const& difference : differences(found, state_)) {
+            Diagnostic& d = wrong.emplace_back();
+            d.where.file = path_.string();
+            d.key_path = "--checkpoint";
+            d.message = "is of another render: " + difference;
+        }
         if (!wrong.empty()) throw InputError(std::move(wrong));
         state_.films = std::move(found.films);
         state_.round = found.round;
