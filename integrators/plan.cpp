@@ -42,6 +42,18 @@ bool decided(RenderPlan& plan, std::string name, bool used, std::string reason) 
     return used;
 }
 
+// Of what surfaces do with light, what no kernel does unless a material asks for it.
+void decide_surface_optics(Scene const& scene, RenderPlan& plan) {
+    std::string const clear = names_of(scene, [](NamedMaterial const& m) { return m.material->traits.transmits; });
+    decided(plan, "transmission", !clear.empty(),
+            clear.empty() ? "no surface lets light through: nothing refracts, disperses, absorbs or nests"
+                          : "light goes through: " + clear);
+    std::string const filmed = names_of(scene, [](NamedMaterial const& m) { return m.material->traits.filmed; });
+    decided(plan, "films", !filmed.empty(),
+            filmed.empty() ? "no thin film: Fresnel's equations at bare surfaces, no phase is followed"
+                           : "interference in the layers of: " + filmed);
+}
+
 // What varies over surfaces; each is asked of those shapes alone whose material has it.
 void decide_surfaces(Scene const& scene, RenderPlan& plan) {
     std::string const textured = names_of(scene, [](NamedMaterial const& m) { return m.material->traits.textured; });
@@ -122,6 +134,8 @@ RenderPlan make_plan(Scene const& scene) {
     auto const decide = [&](std::string name, bool used, std::string reason) {
         return decided(plan, std::move(name), used, std::move(reason));
     };
+
+    decide_surface_optics(scene, plan);
 
     std::string const dispersive =
         names_of(scene, [](NamedMaterial const& m) { return m.material->traits.dispersive; });

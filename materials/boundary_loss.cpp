@@ -4,7 +4,7 @@
 namespace iride {
 
 BoundaryLoss::BoundaryLoss(Facets const& facets, double eta_min, double eta_max)
-    : eta_min_(static_cast<float>(eta_min)), rows_per_eta_(0) {
+    : eta_min_(static_cast<float>(eta_min)), eta_max_(static_cast<float>(eta_max)), rows_per_eta_(0) {
     std::size_t count = 1;
     if (eta_max > eta_min) {
         count = std::min(max_rows, 2 + static_cast<std::size_t>((eta_max - eta_min) / row_distance));

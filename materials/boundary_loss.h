@@ -16,6 +16,8 @@ class BoundaryLoss {
     // 0 < eta_min <= eta_max.
     BoundaryLoss(Facets const& facets, double eta_min, double eta_max);
 
+    float eta_max() const { return eta_max_; }
+
     // Where the lanes' eta lies among the rows; beyond the range: at its end.
     struct Place {
         LaneIndex row;
@@ -39,7 +41,7 @@ class BoundaryLoss {
     Lanes interpolated(Place const& place, Value&& value) const;
 
     std::vector<Row> rows_;
-    float eta_min_, rows_per_eta_;
+    float eta_min_, eta_max_, rows_per_eta_;
 };
 
 template <class Value>

@@ -12,7 +12,9 @@ class CoatedDielectricMaterial : public Material {
     CoatedDielectricMaterial(CoatingTable table, WavelengthGrid const& grid)
         : Material({.two_sided = false,
                     .dispersive = !table.stack().inside.n.is_constant() || !table.stack().outside.n.is_constant(),
-                    .has_density = false}),
+                    .has_density = false,
+                    .transmits = true,
+                    .filmed = true}),
           table_(std::move(table)),
           body_{medium(table_.stack().inside, grid), medium(table_.stack().outside, grid), std::nullopt, true} {}
     Bsdf at(SurfacePoint const&, Wavelengths const& w) const override {
@@ -34,7 +36,8 @@ class CoatedDielectricMaterial : public Material {
 class FilmMaterial : public Material {
   public:
     explicit FilmMaterial(CoatingTable table)
-        : Material({.two_sided = false, .has_density = false}), table_(std::move(table)) {}
+        : Material({.two_sided = false, .has_density = false, .transmits = true, .filmed = true}),
+          table_(std::move(table)) {}
     Bsdf at(SurfacePoint const&, Wavelengths const& w) const override {
         return SmoothCoatedDielectric{&table_, table_.row_of(w), Lanes(1), Lanes(1)};
     }

@@ -34,6 +34,7 @@ ConductorMaterial::ConductorMaterial(ComplexIndex const& index, RoughSurface sur
 CoatedConductorMaterial::CoatedConductorMaterial(CoatingTable table, RoughSurface surface, bool multiple_scattering,
                                                  WavelengthGrid const& grid)
     : Material({.has_density = !surface.facets.is_smooth(),
+                .filmed = true,
                 .anisotropic = surface.facets.is_anisotropic(),
                 .grain = surface.grain()}),
       table_(std::move(table)),

@@ -2,6 +2,8 @@
 // A material makes, at a surface point and for a packet of wavelengths, the closure that scatters there.
 #pragma once
 
+#include <span>
+
 #include "materials/closure.h"
 #include "materials/medium.h"
 #include "materials/surface_point.h"
@@ -16,6 +18,8 @@ struct MaterialTraits {
     bool two_sided = true;  // acts alike on both sides: the frame is turned to wo; dielectrics tell inside from outside
     bool dispersive = false;   // wavelengths part company here
     bool has_density = true;   // some closure has a density: if none has, light sampling is in vain
+    bool transmits = false;    // some light goes through
+    bool filmed = false;       // thin films interfere
     bool textured = false;     // looks at uv
     bool anisotropic = false;  // looks at the tangent
     Vector2 grain{1, 0};       // x axis of anisotropic facets along tangent and bitangent of the surface
@@ -32,6 +36,8 @@ class Material {
     virtual Bsdf at_boundary(SurfacePoint const& point, Wavelengths const& wavelengths, Lanes /*outside*/) const {
         return at(point, wavelengths);
     }
+    // Told once, before any closure is made: the media that may lie in front of that body if it has a priority.
+    virtual void prepare_for(std::span<Medium const* const> /*outside*/) {}
     // The plane surface that the material is, or that its facets are, for colorimetry; null if it is no such thing.
     virtual PlaneStack const* plane() const { return nullptr; }
 

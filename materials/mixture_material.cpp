@@ -11,6 +11,8 @@ MaterialTraits either(MaterialTraits const& a, MaterialTraits const& b) {
     check(a.two_sided && b.two_sided, "what is made of others turns with the viewer");
     return {.dispersive = a.dispersive || b.dispersive,
             .has_density = a.has_density || b.has_density,
+            .transmits = a.transmits || b.transmits,
+            .filmed = a.filmed || b.filmed,
             .textured = a.textured || b.textured,
             .anisotropic = a.anisotropic || b.anisotropic,
             .grain = a.anisotropic ? a.grain : b.grain};

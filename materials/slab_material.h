@@ -10,7 +10,7 @@ class SlabMaterial : public Material {
   public:
     // thickness [m].
     SlabMaterial(Medium medium, float thickness)
-        : Material({.has_density = false}), medium_(std::move(medium)), thickness_(thickness) {}
+        : Material({.has_density = false, .transmits = true}), medium_(std::move(medium)), thickness_(thickness) {}
     Bsdf at(SurfacePoint const&, Wavelengths const& w) const override {
         return ThinSlab{medium_.n.at(w), Lanes(medium_.sigma_a.at(w).lane * thickness_)};
     }

@@ -234,4 +234,13 @@ std::vector<Diagnostic> check_nesting(Scene const& scene, std::string const& fil
     return diagnostics;
 }
 
+void prepare_nested_bodies(Scene& scene) {
+    std::vector<Medium const*> media{&scene.open_medium};
+    auto const nested = [](NamedMaterial const& m) { return m.material->body() && m.material->body()->priority; };
+    for (NamedMaterial const& m : scene.materials)
+        if (nested(m)) media.push_back(&m.material->body()->inside);
+    for (NamedMaterial const& m : scene.materials)
+        if (nested(m)) m.material->prepare_for(media);
+}
+
 }  // namespace iride

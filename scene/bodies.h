@@ -19,4 +19,7 @@ Surroundings surroundings_at(Scene const& scene, Vector const& point);
 // followed, so what is smaller than their spacing may be missed. Remarks on bodies whose surface is open.
 std::vector<Diagnostic> check_nesting(Scene const& scene, std::string const& file, std::vector<std::string>& remarks);
 
+// Tell the bodies that have a priority what may lie in front of them: the open medium, and the others that have one.
+void prepare_nested_bodies(Scene& scene);
+
 }  // namespace iride

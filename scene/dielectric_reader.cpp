@@ -20,21 +20,15 @@ MaterialPointer read_dielectric(SceneBuilder& b, Fields& f) {
                    "found together with 'priority', by which a body finds what is around it; allowed: one of them");
     auto surface = read_rough_surface(f);
     if (!inside || !outside || !surface) return nullptr;
-    if (priority && !surface->facets.is_smooth())
-        f.error_at("priority", "a rough surface is prepared for one medium outside: give it by 'exterior_ior'");
-    std::pair<double, double> eta{infinity, 0};
-    for (int i = 0; i < b.scene.grid.count; ++i) {
-        double const nm =
-            std::clamp<double>(b.scene.grid.first_nm + i, b.scene.wavelengths.min_nm, b.scene.wavelengths.max_nm);
-        double const ratio = inside->index.n.at(nm) / outside->index.n.at(nm);
-        eta = {std::min(eta.first, ratio), std::max(eta.second, ratio)};
-    }
-    if (!surface->facets.is_smooth() && !(eta.first > 0 && std::isfinite(eta.second))) {
-        f.error_at("ior", "n reaches 0, under a rough surface: allowed: above 0");
+    bool const needs_an_index = priority || !surface->facets.is_smooth();
+    auto const has_zero = [&](Medium const& m) { return !(m.index.n.smallest(b.scene.wavelengths) > 0); };
+    if (needs_an_index && (has_zero(*inside) || has_zero(*outside))) {
+        f.error_at(has_zero(*inside) ? "ior" : "exterior_ior",
+                   "n reaches 0, under a rough surface or beside other media: allowed: above 0");
         return nullptr;
     }
     return std::make_unique<DielectricMaterial>(Body{*inside, *outside, priority, outside_is_stated},
-                                                std::move(*surface), eta);
+                                                std::move(*surface), b.scene.wavelengths);
 }
 
 MaterialPointer read_slab(SceneBuilder& b, Fields& f) {

@@ -216,6 +216,7 @@ std::unique_ptr<Scene> load_scene(std::filesystem::path const& path) {
     scene->hash = hash_files(context.files_read);
     ask_intersector(*scene, scene->shapes);
     for (ObjectGeometry& object : scene->objects) ask_intersector(*scene, object.shapes);
+    prepare_nested_bodies(*scene);
     scene->accelerator = std::make_unique<Accelerator>(scene->shapes, scene->objects, scene->instances);
     if (auto wrong = check_nesting(*scene, path.string(), scene->remarks); !wrong.empty())
         throw InputError(std::move(wrong));

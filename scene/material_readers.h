@@ -7,7 +7,7 @@
 
 namespace iride {
 
-using MaterialPointer = std::unique_ptr<Material const>;
+using MaterialPointer = std::unique_ptr<Material>;
 
 // Keys "roughness" or "facets", "distribution", "masking", "rotation_deg"; without the first two: smooth.
 std::optional<RoughSurface> read_rough_surface(Fields& fields);

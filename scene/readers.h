@@ -62,7 +62,7 @@ WavelengthRange nonzero_range(SpectralFunction const& emission, WavelengthRange 
 struct MaterialEntry {
     char const* name;
     char const* summary;
-    std::unique_ptr<Material const> (*reader)(SceneBuilder&, Fields&);
+    std::unique_ptr<Material> (*reader)(SceneBuilder&, Fields&);
 };
 std::span<MaterialEntry const> material_entries();
 // A material object; its index in the scene, where something stands even after an error.

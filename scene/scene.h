@@ -44,7 +44,7 @@ struct RenderDefaults {
 // A material with what is known of it outside the sampling loop.
 struct NamedMaterial {
     std::string name, type;
-    std::unique_ptr<Material const> material;
+    std::unique_ptr<Material> material;
     std::string key_path{};  // where the scene file has it
     int line = 0, column = 0;
     std::shared_ptr<Relief const> relief{};  // null: none

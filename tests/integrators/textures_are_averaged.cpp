@@ -86,4 +86,5 @@ TEST_CASE("cones are carried only where a texture is averaged, and the plan says
     RenderPlan const with = make_plan(*checkered);
     CHECK(with.ray_cones);
     CHECK((used(with, "textures") && used(with, "uv and tangents") && !used(with, "bumps") && !used(with, "alpha")));
+    CHECK((!used(with, "transmission") && !used(with, "films")));
 }
