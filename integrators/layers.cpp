@@ -109,7 +109,7 @@ class FirstHits {
         float const along = axis_.dot(hit.point.position - eye_);
         if (along < depth.at(x, y)) {
             depth.at(x, y) = along;
-            position.at(x, y) = hit.point.position;
+            position.at(x, y) = hit.point.position + scene_.origin.cast<float>();
         }
         float const side = to_viewer.dot(hit.point.geometric_normal) < 0 ? -share : share;
         normal.at(x, y) += side * hit.point.normal;

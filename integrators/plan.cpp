@@ -185,6 +185,11 @@ RenderPlan make_plan(Scene const& scene) {
     });
     decide("smooth normals", smooth, smooth ? "a mesh has vertex normals" : "no mesh has vertex normals");
     decide_surfaces(scene, plan);
+    decide("origin", !scene.origin.isZero(),
+           scene.origin.isZero() ? "places count from the file's origin"
+                                 : fmt::format("places count from the scene's middle, ({:g}, {:g}, {:g}) m: floats are "
+                                               "finest there",
+                                               scene.origin.x(), scene.origin.y(), scene.origin.z()));
     decide("instances", !scene.instances.empty(), fmt::format("{} in the scene", scene.instances.size()));
 
     plan.wavelengths = seen_range(scene);

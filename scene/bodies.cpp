@@ -217,12 +217,13 @@ std::vector<Diagnostic> check_nesting(Scene const& scene, std::string const& fil
         NamedMaterial const& b = scene.materials[static_cast<std::size_t>(pair.second)];
         std::string const text = conflict(*a.material->body(), *b.material->body(), b.name);
         if (text.empty()) continue;
+        VectorDouble const in_file = place.cast<double>() + scene.origin;
         diagnostics.push_back(
             {{file, a.line, a.column},
              a.key_path,
              fmt::format("near ({:.3g}, {:.3g}, {:.3g}) m it {}; allowed: whole numbers that differ, the higher fills "
                          "the place, or, for a body that lies in another, its 'exterior_ior'",
-                         place.x(), place.y(), place.z(), text)});
+                         in_file.x(), in_file.y(), in_file.z(), text)});
     }
     for (int i : bodies) {
         NamedMaterial const& m = scene.materials[static_cast<std::size_t>(i)];

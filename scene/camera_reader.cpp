@@ -36,8 +36,8 @@ Projection read_projection(Fields& f) {
 }
 
 void read_place(SceneBuilder& b, Fields& f, CameraSettings& c) {
-    c.eye = f.required_vector("eye") * b.length_unit_m;
-    c.target = f.required_vector("target") * b.length_unit_m;
+    c.eye = b.placed_exactly(f.required_vector("eye"));
+    c.target = b.placed_exactly(f.required_vector("target"));
     c.up = f.vector("up").value_or(VectorDouble(0, 1, 0));
     VectorDouble const forward = c.target - c.eye;
     constexpr double parallel = 1e-6;  // sine of the angle below which 'right' is rounding

@@ -48,7 +48,7 @@ std::optional<std::string> remark_on_float_grid(Scene const& scene) {
     if (!(offset > tolerable * smallest)) return std::nullopt;
     return fmt::format(
         "coordinates reach {:.3g} m, where floats are {:.2g} m apart and rays start {:.2g} m off surfaces, but the "
-        "smallest object measures {:.2g} m: light may leak there; put the scene nearer to the origin",
+        "smallest object measures {:.2g} m: light may leak there; bring the objects nearer together",
         largest, grid, offset, smallest);
 }
 

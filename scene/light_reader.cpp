@@ -16,8 +16,6 @@ namespace iride {
 
 namespace {
 
-Vector metres(SceneBuilder const& b, VectorDouble const& v) { return (v * b.length_unit_m).cast<float>(); }
-
 // A lat-long picture in linear Rec.709. Throws InputError.
 EnvironmentPicture read_environment_picture(std::filesystem::path const& path, double scale,
                                             WavelengthGrid const& grid) {
@@ -73,7 +71,7 @@ void read_environment(SceneBuilder& b, Fields& f) {
 }
 
 void read_point(SceneBuilder& b, Fields& f) {
-    Vector const position = metres(b, f.required_vector("position"));
+    Vector const position = b.placed(f.required_vector("position"));
     auto const intensity = read_spectrum(b, f, "intensity", emission_kind);
     if (!intensity) return;
     double const luminance = luminance_of(*intensity);
@@ -119,7 +117,7 @@ void read_spot(SceneBuilder& b, Fields& f) {
     SpotCone const cone{beam.cast<float>(), static_cast<float>(std::cos(radians(full))),
                         static_cast<float>(std::cos(radians(end))), static_cast<float>(exponent), flaps};
     Spectrum<dim::spectral_intensity> const I(*intensity, b.scene.grid);
-    add_light(b, make_spot_light(metres(b, position), cone, I, luminance), "spot", *intensity, luminance);
+    add_light(b, make_spot_light(b.placed(position), cone, I, luminance), "spot", *intensity, luminance);
 }
 
 void read_distant(SceneBuilder& b, Fields& f) {

@@ -144,7 +144,7 @@ void read_objects(SceneBuilder& b, Fields& top) {
         Fields f(b.context, (*array)[i], fmt::format("instances[{}]", i));
         f.require("object");
         auto const name = f.choice("object", names);
-        Transform const transform = read_transform(b, f, "transform");
+        Transform const transform = b.placed(read_transform(b, f, "transform"));
         if (name && by_name.contains(*name)) b.scene.instances.push_back({by_name[*name], transform});
         f.finish();
     }
@@ -200,17 +200,38 @@ void ask_intersector(Scene& scene, std::vector<Shape>& shapes) {
     }
 }
 
+// A file read, and what that took; places count from `origin` [m].
+struct Reading {
+    Reading(std::filesystem::path const& path, JsonValue const& root, VectorDouble const& origin)
+        : context{path, path.parent_path(), {}, {}, {path}},
+          builder{.context = context, .scene = *scene, .origin = origin} {
+        scene->name = path.stem().string();
+        scene->origin = origin;
+        read_everything(builder, root);
+    }
+
+    std::unique_ptr<Scene> scene = std::make_unique<Scene>();
+    ReadContext context;
+    SceneBuilder builder;
+};
+
+// Floats are finest near 0: what lies several times its size away from there counts from its centre.
+std::optional<VectorDouble> finer_origin(Eigen::AlignedBox3d const& extent) {
+    constexpr double sizes_away = 4;
+    if (extent.isEmpty() || !(extent.center().norm() > sizes_away * extent.diagonal().norm())) return std::nullopt;
+    return extent.center();
+}
+
 std::filesystem::path scene_folder() { return data_folder() / "scenes"; }
 
 }  // namespace
 
 std::unique_ptr<Scene> load_scene(std::filesystem::path const& path) {
     JsonValue const root = read_json(path);
-    auto scene = std::make_unique<Scene>();
-    scene->name = path.stem().string();
-    ReadContext context{path, path.parent_path(), {}, {}, {path}};
-    SceneBuilder builder{context, *scene, 1, {}, {}};
-    read_everything(builder, root);
+    auto reading = std::make_unique<Reading>(path, root, VectorDouble::Zero());
+    if (auto const origin = finer_origin(reading->builder.extent))
+        reading = std::make_unique<Reading>(path, root, *origin);
+    auto& [scene, context, builder] = *reading;
     if (!context.diagnostics.empty()) throw InputError(std::move(context.diagnostics));
     for (Remark const& remark : context.remarks) scene->remarks.push_back(remark.text());
     scene->hash = hash_files(context.files_read);
@@ -222,7 +243,7 @@ std::unique_ptr<Scene> load_scene(std::filesystem::path const& path) {
         throw InputError(std::move(wrong));
     if (auto remark = remark_on_float_grid(*scene)) scene->remarks.push_back(std::move(*remark));
     scene->lights = LightSet(std::move(builder.lights), scene->radius());
-    return scene;
+    return std::move(scene);
 }
 
 std::vector<ShippedScene> shipped_scenes() {

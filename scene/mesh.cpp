@@ -98,14 +98,14 @@ void append_polygon(Mesh& mesh, std::span<std::uint32_t const> polygon) {
     for (std::size_t i = 2; i < polygon.size(); ++i) mesh.triangle.push_back({polygon[0], polygon[i - 1], polygon[i]});
 }
 
-Mesh read_mesh(std::filesystem::path const& path) {
+Mesh read_mesh(std::filesystem::path const& path, VectorDouble const& origin) {
     std::string extension = path.extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     if (extension != ".ply" && extension != ".obj")
         fail_file(path, fmt::format("'{}' is no mesh format; allowed: .ply, .obj", extension));
     std::string const bytes = read_bytes(path);
-    Mesh mesh = extension == ".ply" ? parse_ply(bytes, path.string()) : parse_obj(bytes, path.string());
+    Mesh mesh = extension == ".ply" ? parse_ply(bytes, path.string(), origin) : parse_obj(bytes, path.string(), origin);
     check_mesh(mesh, path);
     return mesh;
 }

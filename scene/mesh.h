@@ -19,11 +19,12 @@ struct Mesh {
         triangle;  // [triangle] vertex numbers, counter-clockwise seen from the front
 };
 
+// `origin`: the place in the file from which positions count here, taken off before they become floats.
 // Read .ply (ascii or binary, either byte order) or .obj; polygons are split into fans, OBJ's separate normal and
 // texture indices are joined into vertices. Throws InputError (file, line or byte, what was found) for: a missing,
 // empty or truncated file, an unknown extension, NaN or infinite coordinates, indices out of range, no triangle at all,
 // more elements announced than the file can hold.
-Mesh read_mesh(std::filesystem::path const& path);
+Mesh read_mesh(std::filesystem::path const& path, VectorDouble const& origin = VectorDouble::Zero());
 
 // The same checks on a mesh that came from elsewhere: finite positions, indices in range, at least one triangle.
 void check_mesh(Mesh const& mesh, std::filesystem::path const& path);

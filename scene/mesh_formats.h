@@ -51,8 +51,9 @@ std::optional<Vector> unit_vector(double x, double y, double z);
 // A polygon as a fan of triangles around its first corner.
 void append_polygon(Mesh& mesh, std::span<std::uint32_t const> polygon);
 
-// A file's content as a mesh; `file` is for messages. Indices are checked against the file's own counts.
-Mesh parse_ply(std::string_view bytes, std::string const& file);
-Mesh parse_obj(std::string_view text, std::string const& file);
+// A file's content as a mesh; `file` is for messages. Indices are checked against the file's own counts. Positions
+// count from `origin`, which is taken off before they become floats.
+Mesh parse_ply(std::string_view bytes, std::string const& file, VectorDouble const& origin);
+Mesh parse_obj(std::string_view text, std::string const& file, VectorDouble const& origin);
 
 }  // namespace iride

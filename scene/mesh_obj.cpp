@@ -28,7 +28,8 @@ struct Corner {
 
 class ObjParser {
   public:
-    ObjParser(std::string_view text, std::string const& file) : cursor_(text), file_(file) {}
+    ObjParser(std::string_view text, std::string const& file, VectorDouble const& origin)
+        : cursor_(text), file_(file), origin_(origin) {}
 
     Mesh parse() {
         for (; !cursor_.at_end(); cursor_.skip_line()) statement();
@@ -51,7 +52,8 @@ class ObjParser {
         Token const keyword = argument();
         if (keyword.text.empty()) return;
         if (keyword.text == "v") {
-            position_.push_back(vector("a vertex"));  // a weight or a colour may follow; neither is used
+            position_.push_back(
+                (vector("a vertex") - origin_).cast<float>());  // a weight or a colour may follow; neither is used
         } else if (keyword.text == "vn") {
             normal();
         } else if (keyword.text == "vt") {
@@ -65,32 +67,33 @@ class ObjParser {
         }
     }
 
-    float number(Token const& token, char const* what) const {
+    double number(Token const& token, char const* what) const {
         if (token.text.empty()) fail_at(file_, token, fmt::format("the line ends inside {}", what));
         auto const value = to_number(token.text);
         if (!value) fail_at(file_, token, fmt::format("'{}' in {}; a number is allowed", token.text, what));
-        float const single = static_cast<float>(*value);
-        if (!std::isfinite(single)) fail_at(file_, token, fmt::format("{} in {} is not finite", token.text, what));
-        return single;
+        if (!std::isfinite(static_cast<float>(*value)))
+            fail_at(file_, token, fmt::format("{} in {} is not finite", token.text, what));
+        return *value;
     }
 
-    Vector vector(char const* what) {
-        float const x = number(argument(), what), y = number(argument(), what);
+    VectorDouble vector(char const* what) {
+        double const x = number(argument(), what), y = number(argument(), what);
         return {x, y, number(argument(), what)};
     }
 
     void normal() {
         Token const first = argument();
-        float const x = number(first, "a normal"), y = number(argument(), "a normal");
+        double const x = number(first, "a normal"), y = number(argument(), "a normal");
         auto const unit = unit_vector(x, y, number(argument(), "a normal"));
         if (!unit) fail_at(file_, first, "a normal of length 0");
         normal_.push_back(*unit);
     }
 
     void texture_coordinate() {
-        float const u = number(argument(), "a texture coordinate");
+        double const u = number(argument(), "a texture coordinate");
         Token const second = argument();  // absent in a one-dimensional texture
-        uv_.emplace_back(u, second.text.empty() ? 0.0f : number(second, "a texture coordinate"));
+        double const v = second.text.empty() ? 0 : number(second, "a texture coordinate");
+        uv_.emplace_back(static_cast<float>(u), static_cast<float>(v));
     }
 
     // One index of a corner, as a number from 0.
@@ -178,6 +181,7 @@ class ObjParser {
 
     TextCursor cursor_;
     std::string const& file_;
+    VectorDouble origin_;
     std::vector<Vector> position_, normal_;
     std::vector<Vector2> uv_;
     std::vector<Corner> corner_;
@@ -186,6 +190,8 @@ class ObjParser {
 
 }  // namespace
 
-Mesh parse_obj(std::string_view text, std::string const& file) { return ObjParser(text, file).parse(); }
+Mesh parse_obj(std::string_view text, std::string const& file, VectorDouble const& origin) {
+    return ObjParser(text, file, origin).parse();
+}
 
 }  // namespace iride

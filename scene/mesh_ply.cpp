@@ -247,8 +247,8 @@ class BinaryBody {
 template <class Body>
 class BodyReader {
   public:
-    BodyReader(Header const& header, Body body, std::string const& file)
-        : header_(header), body_(std::move(body)), file_(file) {}
+    BodyReader(Header const& header, Body body, std::string const& file, VectorDouble const& origin)
+        : header_(header), body_(std::move(body)), file_(file), origin_(origin) {}
 
     Mesh read() {
         for (Element const& element : header_.elements) {
@@ -307,10 +307,10 @@ class BodyReader {
         return column;
     }
 
-    float finite(double value, std::uint64_t vertex) const {
-        float const single = static_cast<float>(value);
-        if (!std::isfinite(single)) body_.fail(fmt::format("vertex {}: {} is not finite", vertex, value));
-        return single;
+    double finite(double value, std::uint64_t vertex) const {
+        if (!std::isfinite(static_cast<float>(value)))
+            body_.fail(fmt::format("vertex {}: {} is not finite", vertex, value));
+        return value;
     }
 
     void read_vertices(Element const& element) {
@@ -322,7 +322,7 @@ class BodyReader {
         mesh_.position.reserve(count);
         if (normals) mesh_.normal.reserve(count);
         if (uvs) mesh_.uv.reserve(count);
-        std::array<float, 8> row{};
+        std::array<double, 8> row{};
         for (std::uint64_t i = 0; i < element.count; ++i) {
             for (std::size_t p = 0; p < column.size(); ++p) {
                 if (column[p] < 0) {
@@ -331,8 +331,8 @@ class BodyReader {
                     row[static_cast<std::size_t>(column[p])] = finite(body_.read(element.properties[p].type), i);
                 }
             }
-            mesh_.position.emplace_back(row[0], row[1], row[2]);
-            if (uvs) mesh_.uv.emplace_back(row[6], row[7]);
+            mesh_.position.push_back((VectorDouble(row[0], row[1], row[2]) - origin_).cast<float>());
+            if (uvs) mesh_.uv.emplace_back(static_cast<float>(row[6]), static_cast<float>(row[7]));
             if (!normals) continue;
             auto const unit = unit_vector(row[3], row[4], row[5]);
             if (!unit) body_.fail(fmt::format("vertex {}: a normal of length 0", i));
@@ -372,16 +372,17 @@ class BodyReader {
     Header const& header_;
     Body body_;
     std::string const& file_;
+    VectorDouble origin_;
     Mesh mesh_;
 };
 
 }  // namespace
 
-Mesh parse_ply(std::string_view bytes, std::string const& file) {
+Mesh parse_ply(std::string_view bytes, std::string const& file, VectorDouble const& origin) {
     TextCursor cursor(bytes);
     Header const header = HeaderParser(cursor, file).parse();
     auto const read = [&]<class Body>(std::type_identity<Body>) {
-        return BodyReader<Body>(header, Body(bytes, cursor, file), file).read();
+        return BodyReader<Body>(header, Body(bytes, cursor, file), file, origin).read();
     };
     switch (header.format) {
         case Format::ascii:

@@ -25,10 +25,25 @@ struct SceneBuilder {
     ReadContext& context;
     Scene& scene;
     double length_unit_m = 1;
-    std::map<std::string, NamedSource> named_materials;
-    std::vector<std::unique_ptr<Light>> lights;
+    VectorDouble origin = VectorDouble::Zero();  // [m] the place that becomes the scene's origin
+    bool local = false;                          // what is read will be moved by a transform
+    Eigen::AlignedBox3d extent{};                // [m] of the places met so far
+    std::map<std::string, NamedSource> named_materials{};
+    std::vector<std::unique_ptr<Light>> lights{};
     int material_depth = 0;  // of materials made of others
     TextureCache textures{};
+
+    // A place of the file in the scene's coordinates [m].
+    VectorDouble placed_exactly(VectorDouble const& v) {
+        if (local) return v * length_unit_m;
+        extent.extend(v * length_unit_m);
+        return v * length_unit_m - origin;
+    }
+    Vector placed(VectorDouble const& v) { return placed_exactly(v).cast<float>(); }
+    Transform placed(Transform const& t) {
+        extent.extend(VectorDouble(t.translation()));
+        return Transform(Eigen::Translation3d(-origin)) * t;
+    }
 };
 
 // ---- cameras (camera_reader.cpp)

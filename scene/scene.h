@@ -65,6 +65,7 @@ struct Scene {
     std::string name, description, hash;  // hash: of the scene file and every file it names
     WavelengthRange wavelengths = visible_range;
     WavelengthGrid grid{};
+    VectorDouble origin = VectorDouble::Zero();  // [m] the place in the file that has coordinates 0 here
     CameraSettings camera;
     FilmSettings film;
     RenderDefaults render;

@@ -13,12 +13,11 @@ namespace {
 
 using Geometries = std::vector<ShapeGeometry>;
 
-Vector metres(SceneBuilder const& b, VectorDouble const& v) { return (v * b.length_unit_m).cast<float>(); }
 float metres(SceneBuilder const& b, double x) { return static_cast<float>(x * b.length_unit_m); }
 
 void read_sphere(SceneBuilder& b, Fields& f, Geometries& out) {
     VectorDouble const centre = f.required_vector("centre");
-    out.push_back(Sphere{metres(b, centre), metres(b, f.required_number("radius", positive()))});
+    out.push_back(Sphere{b.placed(centre), metres(b, f.required_number("radius", positive()))});
 }
 
 void read_quad(SceneBuilder& b, Fields& f, Geometries& out) {
@@ -40,14 +39,14 @@ void read_quad(SceneBuilder& b, Fields& f, Geometries& out) {
     if (!(normal.norm() > 1e-12 * square(size))) return f.error_at("corners", "the quad has no area");
     if (std::abs((c[1] - c[0]).dot(normal.normalized())) > 1e-5 * size)
         return f.error_at("corners", "the four corners are not in one plane");
-    out.push_back(Quad::through({metres(b, c[0]), metres(b, c[1]), metres(b, c[2]), metres(b, c[3])}));
+    out.push_back(Quad::through({b.placed(c[0]), b.placed(c[1]), b.placed(c[2]), b.placed(c[3])}));
 }
 
 void read_disc(SceneBuilder& b, Fields& f, Geometries& out) {
     VectorDouble const centre = f.required_vector("centre"), normal = f.required_vector("normal");
     float const radius = metres(b, f.required_number("radius", positive()));
     if (normal.norm() == 0) return f.error_at("normal", "the normal has length 0");
-    out.push_back(Disc{metres(b, centre), normal.normalized().cast<float>(), radius});
+    out.push_back(Disc{b.placed(centre), normal.normalized().cast<float>(), radius});
 }
 
 void read_box(SceneBuilder& b, Fields& f, Geometries& out) {
@@ -58,8 +57,7 @@ void read_box(SceneBuilder& b, Fields& f, Geometries& out) {
     if (!((*high - *low).minCoeff() > 0)) return f.error("'max' must be above 'min' in every coordinate");
     // Corner i has bit k set where it takes max in coordinate k.
     auto const corner = [&](unsigned i) {
-        return metres(
-            b, VectorDouble(i & 1 ? high->x() : low->x(), i & 2 ? high->y() : low->y(), i & 4 ? high->z() : low->z()));
+        return b.placed({i & 1 ? high->x() : low->x(), i & 2 ? high->y() : low->y(), i & 4 ? high->z() : low->z()});
     };
     constexpr unsigned faces[6][4] = {{0, 4, 6, 2}, {5, 1, 3, 7}, {0, 1, 5, 4},
                                       {6, 7, 3, 2}, {1, 0, 2, 3}, {4, 5, 7, 6}};
@@ -71,7 +69,7 @@ void read_frustum(SceneBuilder& b, Fields& f, double radius, double top, Geometr
     VectorDouble const from = f.required_vector("from"), to = f.required_vector("to");
     bool const caps = f.boolean("caps").value_or(true);
     if ((to - from).norm() == 0) return f.error("'from' and 'to' are the same point");
-    Frustum const side{metres(b, from), metres(b, to), metres(b, radius), metres(b, top)};
+    Frustum const side{b.placed(from), b.placed(to), metres(b, radius), metres(b, top)};
     out.push_back(side);
     Direction const axis = (side.to - side.from).normalized();
     if (caps && side.radius > 0) out.push_back(Disc{side.from, -axis, side.radius});
@@ -115,7 +113,7 @@ std::optional<Mesh> inline_mesh(SceneBuilder& b, Fields& f) {
     for (std::size_t i = 0; i < vertices->size(); ++i) {
         auto const p = read_vector(b.context, (*vertices)[i], fmt::format("{}[{}]", f.path("vertices"), i));
         if (!p) return std::nullopt;
-        mesh.position.push_back(p->cast<float>());
+        mesh.position.push_back(b.placed(*p));
     }
     for (std::size_t i = 0; i < triangles->size(); ++i) {
         std::string const path = fmt::format("{}[{}]", f.path("triangles"), i);
@@ -135,6 +133,16 @@ std::optional<Mesh> inline_mesh(SceneBuilder& b, Fields& f) {
     return mesh;
 }
 
+Mesh read_placed_mesh(SceneBuilder& b, std::filesystem::path const& path) {
+    VectorDouble const origin = b.local ? VectorDouble::Zero() : VectorDouble(b.origin / b.length_unit_m);
+    Mesh mesh = read_mesh(path, origin);
+    for (Vector& p : mesh.position) {
+        if (!b.local) b.extent.extend((p.cast<double>() + origin) * b.length_unit_m);
+        p *= static_cast<float>(b.length_unit_m);
+    }
+    return mesh;
+}
+
 void read_mesh_shape(SceneBuilder& b, Fields& f, Geometries& out) {
     bool const smooth = f.boolean("smooth").value_or(true);
     std::optional<Mesh> mesh;
@@ -144,12 +152,11 @@ void read_mesh_shape(SceneBuilder& b, Fields& f, Geometries& out) {
         auto const name = f.text("file");
         if (!name) return;
         std::filesystem::path const path = b.context.folder / *name;
-        b.context.guarded(*f.find("file"), f.path("file"), [&] { mesh = read_mesh(path); });
+        b.context.guarded(*f.find("file"), f.path("file"), [&] { mesh = read_placed_mesh(b, path); });
         b.context.files_read.push_back(path);
     }
     if (!mesh) return;
     if (f.find("vertices")) b.context.guarded(f.value(), f.key_path(), [&] { check_mesh(*mesh, {}); });
-    for (Vector& p : mesh->position) p *= static_cast<float>(b.length_unit_m);
     out.push_back(MeshShape{std::make_shared<Mesh>(std::move(*mesh)), smooth});
 }
 
@@ -234,8 +241,11 @@ void read_shape(SceneBuilder& b, JsonValue const& value, std::string const& path
     ShapeEntry const* const entry = find_entry(f, shape_entries());
     if (!entry) return;
     Geometries geometries;
+    bool const moved = f.find("transform");
+    b.local = in_object || moved;
     entry->reader(b, f, geometries);
-    Transform const transform = read_transform(b, f, "transform");
+    b.local = false;
+    Transform const own = read_transform(b, f, "transform"), transform = moved && !in_object ? b.placed(own) : own;
     int const material = read_material_under(b, f, "material");
     bool const flipped = f.boolean("flip").value_or(false);
     auto const emission = read_emission(b, f, in_object);
@@ -243,7 +253,7 @@ void read_shape(SceneBuilder& b, JsonValue const& value, std::string const& path
     if (emission && material_at(b, material) && material_at(b, material)->alpha)
         f.error_at("emission", "a lamp has no holes: its material has 'alpha'");
     for (ShapeGeometry& g : geometries) {
-        if (f.find("transform")) apply_transform(b, f, transform, g);
+        if (moved) apply_transform(b, f, transform, g);
         Shape shape{std::move(g), material, -1, flipped};
         if (emission && !(surface_area(shape.geometry) > 0)) {
             f.error_at("emission", "this emitter has no area");

@@ -81,7 +81,7 @@ void save_solution(std::filesystem::path const& path, Scene const& scene, Radios
     PatchMesh const& mesh = field.mesh();
     for (std::size_t v = 0; v < mesh.position.size(); ++v) {
         auto const b = field.at_vertex().row(static_cast<Eigen::Index>(v));
-        for (double x : mesh.position[v]) append(bytes, x);
+        for (double x : mesh.position[v] + scene.origin) append(bytes, x);
         Xyz const xyz = to_xyz(b);
         for (double c : {xyz.X, xyz.Y, xyz.Z}) append(bytes, static_cast<float>(c));
         for (std::uint8_t c : to_srgb_bytes(xyz)) append(bytes, c);
@@ -197,6 +197,7 @@ std::shared_ptr<RadiosityField const> load_solution(std::filesystem::path const&
     for (Eigen::Index v = 0; v < at_vertex.rows(); ++v) {
         mesh.position.emplace_back();
         for (double& x : mesh.position.back()) x = in.take<double>();
+        mesh.position.back() -= scene.origin;
         for (int k = 0; k < 3; ++k) in.take<float>();
         for (int k = 0; k < 3; ++k) in.take<std::uint8_t>();
         for (Eigen::Index k = 0; k < at_vertex.cols(); ++k) at_vertex(v, k) = in.take<float>();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scene too far from the origin for its smallest object is told so at load, with the numbers.
+// A scene too wide for its smallest object is told so at load, with the numbers.
 #include <fmt/format.h>
 #include <catch2/catch.hpp>
 
@@ -10,10 +10,16 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-std::vector<std::string> remarks_of_sphere(double x, double radius) {
-    return test::scene_from(fmt::format(R"({{ "camera": {{ "eye": [{}, 0, -5], "target": [{}, 0, 0], "field_deg": 40 }},
-      "shapes": [ {{ "type": "sphere", "centre": [{}, 0, 0], "radius": {}, "material": {{ "type": "black" }} }} ] }})",
-                                        x, x, x, radius))
+// Two spheres, `x` apart.
+std::vector<std::string> remarks_of_spheres(double x, double radius) {
+    auto const sphere = [&](double at) {
+        return fmt::format(
+            R"({{ "type": "sphere", "centre": [{}, 0, 0], "radius": {}, "material": {{ "type": "black" }} }})", at,
+            radius);
+    };
+    return test::scene_from(fmt::format(R"({{ "camera": {{ "eye": [0, 0, -5], "target": [0, 0, 0], "field_deg": 40 }},
+      "shapes": [ {}, {} ] }})",
+                                        sphere(0), sphere(x)))
         ->remarks;
 }
 
@@ -21,12 +27,12 @@ std::vector<std::string> remarks_of_sphere(double x, double radius) {
 
 // Expected: floats of 1e6 are 2^-4 = .0625 m apart (.12 by epsilon times the number), rays start 64 epsilon = 7.6 m
 // off.
-TEST_CASE("a scene far from the origin is told the float grid and its smallest object", "[input]") {
-    auto const far = remarks_of_sphere(1e6, 0.5);
+TEST_CASE("a scene that is too wide is told the float grid and its smallest object", "[input]") {
+    auto const far = remarks_of_spheres(1e6, 0.5);
     REQUIRE(far.size() == 1);
     CHECK_THAT(far[0], Contains("coordinates reach 1e+06 m") && Contains("0.12 m apart") &&
                            Contains("rays start 7.6 m off") && Contains("smallest object measures 1 m"));
-    CHECK(remarks_of_sphere(100, 0.5).empty());
-    CHECK(remarks_of_sphere(1e6, 1e5).empty());
-    CHECK(remarks_of_sphere(0, 1e-3).empty());
+    CHECK(remarks_of_spheres(100, 0.5).empty());
+    CHECK(remarks_of_spheres(1e6, 1e5).empty());
+    CHECK(remarks_of_spheres(0, 1e-3).empty());
 }
