@@ -90,7 +90,7 @@ int main() {
     fmt::print("|---:|---|---:|---:|---:|---:|\n");
     Wavelengths const wavelengths =
         WavelengthSampler(visible_range, SpectralFunction::constant(1), WavelengthGrid{}).sample(0.5f);
-    for (int count : {1, 10, 100, 1000, 10000, 100000}) {
+    for (int count : {2, 4, 8, 16, 32, 64, 256, 1000, 10000, 100000}) {
         std::vector<Lamp> const lamps = lamps_over_floor(count);
         LightSet const lights = light_set(lamps);
         std::vector<LightReceiver> places;

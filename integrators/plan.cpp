@@ -99,7 +99,7 @@ void decide_light_selection(Scene const& scene, RenderPlan& plan) {
         ++bright;
         finite += scene.lights.light(i).bounds().has_value() ? 1 : 0;
     }
-    constexpr int worth_a_tree = 64;
+    constexpr int worth_a_tree = 2;
     bool const tree = finite >= worth_a_tree;
     bool const choice = plan.light_sampling && bright > 1;
     plan.light_selection = scene.render.light_selection.value_or(tree ? LightSelection::tree : LightSelection::power);

@@ -4,13 +4,14 @@
 #include <array>
 #include <limits>
 #include <optional>
+#include <tuple>
 
 namespace iride {
 
 namespace {
 
 constexpr int bucket_count = 12;
-// Deeper than this, groups are halved by number: lamps in a geometric row would make a list, and a trail has 64 bits.
+// Deeper than this, groups are halved by number: lamps in a geometric row would make a list.
 constexpr int deepest_by_cost = 32;
 constexpr float below_one = 0x1.fffffep-1f;
 
@@ -85,93 +86,157 @@ LightBounds united(LightBounds const& a, LightBounds const& b) {
     return u;
 }
 
-LightCluster::LightCluster(LightBounds const& b)
-    : centre(iride::centre(b).cast<float>()),
-      axis(b.axis.cast<float>()),
-      radius2(static_cast<float>(diagonal2(b) / 4)),
-      cos_normals(static_cast<float>(std::cos(b.normals_rad))),
-      sin_normals(static_cast<float>(std::sin(b.normals_rad))),
-      cos_emission(static_cast<float>(std::cos(b.emission_rad))),
-      intensity(static_cast<float>(b.intensity)),
-      two_sided(b.two_sided) {}
-
-LightTree::LightTree(std::span<LightBounds const> bounds) : trail_(bounds.size()) {
-    std::vector<Item> items;
-    for (std::size_t i = 0; i < bounds.size(); ++i) items.push_back({bounds[i], static_cast<int>(i)});
-    nodes_.reserve(2 * items.size());
-    if (!items.empty()) build(items, 0, 0);
+void LightClusters::set(int place, LightBounds const& b) {
+    auto const at = static_cast<std::size_t>(place);
+    VectorDouble const middle = iride::centre(b);
+    for (int k = 0; k < 3; ++k) {
+        centre[static_cast<std::size_t>(k)][at] = static_cast<float>(middle[k]);
+        axis[static_cast<std::size_t>(k)][at] = static_cast<float>(b.axis[k]);
+    }
+    radius2[at] = static_cast<float>(diagonal2(b) / 4);
+    cos_normals[at] = static_cast<float>(std::cos(b.normals_rad));
+    sin_normals[at] = static_cast<float>(std::sin(b.normals_rad));
+    cos_emission[at] = static_cast<float>(std::cos(b.emission_rad));
+    intensity[at] = static_cast<float>(b.intensity);
+    two_sided[at] = b.two_sided ? 1 : 0;
 }
 
-void LightTree::build(std::span<Item> items, int depth, std::uint64_t trail) {
-    depth_ = std::max(depth_, depth);
-    LightBounds all = items.front().bounds;
-    VectorDouble lower = centre(all), upper = lower;
-    for (Item const& item : items.subspan(1)) {
-        all = united(all, item.bounds);
-        lower = lower.cwiseMin(centre(item.bounds));
-        upper = upper.cwiseMax(centre(item.bounds));
+class LightTree::Builder {
+  public:
+    Builder(LightTree& tree, std::span<LightBounds const> bounds) : tree_(tree) {
+        std::vector<Item> items;
+        for (std::size_t i = 0; i < bounds.size(); ++i) items.push_back({bounds[i], static_cast<int>(i)});
+        binary_.reserve(2 * items.size());
+        split(items, 0);
     }
-    std::size_t const node = nodes_.size();
-    nodes_.push_back({LightCluster(all)});
-    if (items.size() == 1) {
-        nodes_[node].lamp = items.front().lamp;
-        trail_[static_cast<std::size_t>(items.front().lamp)] = trail;
-        return;
+    void build() { gather(0, {}, 0); }
+
+  private:
+    struct Item {
+        LightBounds bounds;
+        int lamp;
+    };
+    struct Binary {
+        LightBounds bounds;
+        int lamps;
+        int right = -1;  // the left child is the next; -1: a leaf
+        int lamp = -1;
+    };
+
+    void split(std::span<Item> items, int depth) {
+        LightBounds all = items.front().bounds;
+        VectorDouble lower = centre(all), upper = lower;
+        for (Item const& item : items.subspan(1)) {
+            all = united(all, item.bounds);
+            lower = lower.cwiseMin(centre(item.bounds));
+            upper = upper.cwiseMax(centre(item.bounds));
+        }
+        std::size_t const node = binary_.size();
+        binary_.push_back({all, static_cast<int>(items.size())});
+        if (items.size() == 1) {
+            binary_[node].lamp = items.front().lamp;
+            return;
+        }
+        std::size_t left = items.size() / 2;
+        Cut cut;
+        if (depth < deepest_by_cost)
+            for (int axis = 0; axis < 3; ++axis)
+                if (Cut const c = best_cut(items, lower, upper, axis); c.cost < cut.cost) cut = c;
+        if (cut.axis >= 0) {
+            auto const middle = std::partition(
+                items.begin(), items.end(), [&](Item const& item) { return centre(item.bounds)[cut.axis] < cut.at; });
+            auto const below = static_cast<std::size_t>(middle - items.begin());
+            if (below > 0 && below < items.size()) left = below;
+        }
+        split(items.first(left), depth + 1);
+        binary_[node].right = static_cast<int>(binary_.size());
+        split(items.subspan(left), depth + 1);
     }
-    std::size_t left = items.size() / 2;
-    Cut cut;
-    if (depth < deepest_by_cost)
-        for (int axis = 0; axis < 3; ++axis)
-            if (Cut const c = best_cut(items, lower, upper, axis); c.cost < cut.cost) cut = c;
-    if (cut.axis >= 0) {
-        auto const middle = std::partition(items.begin(), items.end(),
-                                           [&](Item const& item) { return centre(item.bounds)[cut.axis] < cut.at; });
-        auto const below = static_cast<std::size_t>(middle - items.begin());
-        if (below > 0 && below < items.size()) left = below;
+
+    Binary const& at(int node) const { return binary_[static_cast<std::size_t>(node)]; }
+    // Of two groups, the one to be opened first; a lamp cannot be.
+    bool is_opened_later(int a, int b) const {
+        auto const rank = [](Binary const& n) { return std::tuple(n.right >= 0, cost(n.bounds), n.lamps); };
+        return rank(at(a)) < rank(at(b));
     }
-    build(items.first(left), depth + 1, trail);
-    nodes_[node].right = static_cast<int>(nodes_.size());
-    build(items.subspan(left), depth + 1, trail | (std::uint64_t{1} << depth));
+
+    // The node of a group of binary nodes, and all below it.
+    int gather(int root, Place const& place, int depth) {
+        tree_.depth_ = std::max(tree_.depth_, depth);
+        std::vector<int> group{root};
+        while (group.size() < real_lanes) {
+            int& opened = *std::ranges::max_element(group, [&](int a, int b) { return is_opened_later(a, b); });
+            int const right = at(opened).right;
+            if (right < 0) break;
+            ++opened;  // the left child
+            group.push_back(right);
+        }
+        auto const node = static_cast<int>(tree_.nodes_.size());
+        tree_.nodes_.emplace_back();
+        tree_.place_of_node_.push_back(place);
+        for (int slot = 0; slot < static_cast<int>(group.size()); ++slot) {
+            int const child = group[static_cast<std::size_t>(slot)];
+            tree_.nodes_[static_cast<std::size_t>(node)].clusters.set(slot, at(child).bounds);
+            if (at(child).right < 0) tree_.place_of_lamp_[static_cast<std::size_t>(at(child).lamp)] = {node, slot};
+            int const below = at(child).right < 0 ? -1 - at(child).lamp : gather(child, {node, slot}, depth + 1);
+            tree_.nodes_[static_cast<std::size_t>(node)].child[static_cast<std::size_t>(slot)] = below;
+        }
+        return node;
+    }
+
+    LightTree& tree_;
+    std::vector<Binary> binary_;
+};
+
+LightTree::LightTree(std::span<LightBounds const> bounds) : place_of_lamp_(bounds.size()) {
+    if (!bounds.empty()) Builder(*this, bounds).build();
 }
 
-// Negative where neither child can be seen.
-float LightTree::share_of_left(LightReceiver const& receiver, std::size_t node) const {
-    float const left = nodes_[node + 1].cluster.importance(receiver);
-    float const right = nodes_[static_cast<std::size_t>(nodes_[node].right)].cluster.importance(receiver);
-    return left + right > 0 ? left / (left + right) : -1;
+namespace {
+
+float sum_of(Real8 const& x) {
+    float sum = 0;
+    for (int i = 0; i < real_lanes; ++i) sum += x[i];
+    return sum;
 }
+
+}  // namespace
 
 LightTree::Choice LightTree::choose(LightReceiver const& receiver, float u) const {
-    std::size_t node = 0;
     float probability = 1;
-    while (nodes_[node].right >= 0) {
-        float const share = share_of_left(receiver, node);
-        if (share < 0) return {-1, 0};
-        if (u < share) {
-            u = std::min(u / share, below_one);
-            probability *= share;
-            ++node;
-        } else {
-            u = std::min((u - share) / (1 - share), below_one);
-            probability *= 1 - share;
-            node = static_cast<std::size_t>(nodes_[node].right);
+    for (int node = 0; node >= 0;) {
+        Node const& here = nodes_[static_cast<std::size_t>(node)];
+        Real8 const importance = here.clusters.importance(receiver);
+        float const all = sum_of(importance);
+        if (!(all > 0)) return {-1, 0};
+        u *= all;
+        int slot = -1;
+        for (int i = 0; i < real_lanes; ++i) {
+            if (!(importance[i] > 0)) continue;
+            if (slot >= 0) u -= importance[slot];
+            slot = i;
+            if (u < importance[i]) break;
         }
+        float const chosen = importance[slot];
+        u = std::clamp(u / chosen, 0.0f, below_one);
+        probability *= chosen / all;
+        node = here.child[static_cast<std::size_t>(slot)];
+        if (node < 0) return {-1 - node, probability};
     }
-    return {nodes_[node].lamp, probability};
+    return {-1, 0};
+}
+
+float LightTree::probability_of(LightReceiver const& receiver, Place const& place) const {
+    if (place.node < 0) return 1;
+    auto const node = static_cast<std::size_t>(place.node);
+    float const before = probability_of(receiver, place_of_node_[node]);
+    Real8 const importance = nodes_[node].clusters.importance(receiver);
+    float const all = sum_of(importance);
+    return all > 0 ? before * (importance[place.slot] / all) : 0;
 }
 
 float LightTree::probability(LightReceiver const& receiver, int lamp) const {
-    std::uint64_t trail = trail_[static_cast<std::size_t>(lamp)];
-    std::size_t node = 0;
-    float probability = 1;
-    for (; nodes_[node].right >= 0; trail >>= 1) {
-        float const share = share_of_left(receiver, node);
-        if (share < 0) return 0;
-        bool const right = (trail & 1) != 0;
-        probability *= right ? 1 - share : share;
-        node = right ? static_cast<std::size_t>(nodes_[node].right) : node + 1;
-    }
-    return probability;
+    return probability_of(receiver, place_of_lamp_[static_cast<std::size_t>(lamp)]);
 }
 
 }  // namespace iride

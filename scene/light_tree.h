@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// A binary tree over lamps: a lamp is chosen by going down, at each node to the left with probability
-// importance(left) / (importance(left) + importance(right)), by one random number that is rescaled on the way. The cost
-// grows as the depth. The tree is cut where clusters are least in intensity x solid angle of emission x size: the
-// surface area orientation heuristic, with the squared diagonal as size. [Conty 2018] [Pharr 2023, sec. 12.6]
+// A tree over lamps, eight children to a node: a lamp is chosen by going down, at each node to a child with probability
+// importance / sum of importances, by one random number that is rescaled on the way. The cost grows as the depth; the
+// children of a node are evaluated in one register. The tree is made as a binary one, cut where clusters are least in
+// intensity x solid angle of emission x size: the surface area orientation heuristic, with the squared diagonal as
+// size. A node then takes the costliest of its descendants for children. [Conty 2018] [Pharr 2023, sec. 12.6]
 #pragma once
 
-#include <cstdint>
+#include <array>
 #include <span>
 #include <vector>
 
@@ -31,19 +32,19 @@ class LightTree {
 
   private:
     struct Node {
-        LightCluster cluster;
-        int right = -1;  // the left child is the next node; -1: a leaf
-        int lamp = -1;
+        LightClusters clusters;
+        std::array<int, real_lanes> child{};  // >= 0: a node; < 0: lamp -1 - child
     };
-    struct Item {
-        LightBounds bounds;
-        int lamp;
+    struct Place {
+        int node = -1;
+        int slot = 0;
     };
-    void build(std::span<Item> items, int depth, std::uint64_t trail);
-    float share_of_left(LightReceiver const& receiver, std::size_t node) const;
+    class Builder;
+
+    float probability_of(LightReceiver const& receiver, Place const& place) const;
 
     std::vector<Node> nodes_;
-    std::vector<std::uint64_t> trail_;  // of each lamp: bit k set where the path turns right at depth k
+    std::vector<Place> place_of_node_, place_of_lamp_;  // in the node above; none: -1
     int depth_ = 0;
 };
 
