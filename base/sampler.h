@@ -2,7 +2,8 @@
 // The random numbers of one camera path: dimension after dimension, each a function of (seed, pixel, sample,
 // dimension). They come in blocks of four pairs, made together in one register: a block for the camera, one for each
 // vertex of the path. Each pair is an independently scrambled and shuffled (0,2)-sequence over the samples of its pixel
-// ("padding"); with SamplerKind::stratified, progressive jittered points; with independent, plain hashes.
+// ("padding"), with SamplerKind::zsobol one that neighbouring pixels share (base/pixel_sobol.h); with stratified,
+// progressive jittered points; with independent, plain hashes.
 #pragma once
 
 #include <array>
@@ -10,8 +11,8 @@
 #include <optional>
 #include <string_view>
 
+#include "base/pixel_sobol.h"
 #include "base/random.h"
-#include "base/sobol.h"
 
 namespace iride {
 
@@ -19,8 +20,8 @@ struct Sample2 {
     float x, y;
 };
 
-enum class SamplerKind { sobol, independent, stratified };
-inline constexpr std::array<char const*, 3> sampler_names{"sobol", "independent", "stratified"};
+enum class SamplerKind { sobol, independent, stratified, zsobol };
+inline constexpr std::array<char const*, 4> sampler_names{"sobol", "independent", "stratified", "zsobol"};
 constexpr std::optional<SamplerKind> sampler_of(std::string_view name) {
     for (std::size_t i = 0; i < sampler_names.size(); ++i)
         if (name == sampler_names[i]) return static_cast<SamplerKind>(i);
@@ -29,8 +30,12 @@ constexpr std::optional<SamplerKind> sampler_of(std::string_view name) {
 
 class Sampler {
   public:
+    // `pixel`: any number of its own; with zsobol its Morton number, that neighbours know of one another.
     Sampler(SamplerKind kind, std::uint64_t seed, std::uint32_t pixel, std::uint32_t sample)
-        : key_(hash_words(seed, pixel)), sample_(sample), kind_(kind) {
+        : key_(kind == SamplerKind::zsobol ? hash_words(seed) : hash_words(seed, pixel)),
+          sample_(sample),
+          reversed_pixel_(reverse_bits(pixel)),
+          kind_(kind) {
         make_block(0);
     }
 
@@ -68,10 +73,13 @@ class Sampler {
         SobolWords words;
         if (by_index) {
             SobolWords const once = spread(high, 8);
-            constexpr SobolWords twice{0, 1, 2, 3, 0, 1, 2, 3};
+            constexpr SobolWords twice{0, 1, 2, 3, 0, 1, 2, 3}, twice_more{4, 5, 6, 7, 4, 5, 6, 7};
             SobolWords const shuffle = __builtin_shuffle(once, twice);
-            words = kind_ == SamplerKind::sobol ? scrambled_sobol(sample_, shuffle, seeds)
-                                                : jittered(sample_, shuffle, seeds);
+            if (kind_ == SamplerKind::zsobol)
+                words = pixel_sobol(sample_, reversed_pixel_, shuffle, __builtin_shuffle(once, twice_more), seeds);
+            else
+                words = kind_ == SamplerKind::sobol ? scrambled_sobol(sample_, shuffle, seeds)
+                                                    : jittered(sample_, shuffle, seeds);
         } else {
             words = seeds ^ spread(high, 8);
             words *= 0x735a2d97u;
@@ -84,7 +92,7 @@ class Sampler {
 
     Numbers number_;  // x of the block's four pairs, then y
     std::uint64_t key_;
-    std::uint32_t sample_, block_ = 0;
+    std::uint32_t sample_, reversed_pixel_, block_ = 0;
     int used_ = 0;
     SamplerKind kind_;
 };

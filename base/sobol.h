@@ -47,15 +47,18 @@ constexpr Word scramble_reversed(Word x, Word seed) {
     return x ^ (x * 0x53a22864u);
 }
 
-// Point `index` of four shuffled and scrambled sequences, as fixed point numbers of 2^-32. shuffle: seed of each
-// sequence's order (twice the same four words), in which every aligned block of 2^k indices stays a block; scramble: a
-// seed for each coordinate.
-inline SobolWords scrambled_sobol(std::uint32_t index, SobolWords shuffle, SobolWords scramble) {
+inline constexpr SobolWords sobol_is_y{0, 0, 0, 0, ~0u, ~0u, ~0u, ~0u};
+
+// Point `index` of four shuffled sequences, reversed and not yet scrambled. shuffle: seed of each sequence's order
+// (twice the same four words), in which every aligned block of 2^k indices stays a block.
+inline SobolWords shuffled_sobol(std::uint32_t index, SobolWords shuffle) {
     SobolWords const i = reverse_bits(scramble_reversed(SobolWords{} + reverse_bits(index), shuffle));
-    constexpr std::uint32_t all = ~0u;
-    constexpr SobolWords is_y{0, 0, 0, 0, all, all, all, all};
-    SobolWords const reversed = (i & ~is_y) | (multiply_by_pascal(i) & is_y);
-    return reverse_bits(scramble_reversed(reversed, scramble));
+    return (i & ~sobol_is_y) | (multiply_by_pascal(i) & sobol_is_y);
+}
+
+// The same as fixed point numbers of 2^-32. scramble: a seed for each coordinate.
+inline SobolWords scrambled_sobol(std::uint32_t index, SobolWords shuffle, SobolWords scramble) {
+    return reverse_bits(scramble_reversed(shuffled_sobol(index, shuffle), scramble));
 }
 
 // The even bits of each word, moved together.
@@ -72,9 +75,7 @@ constexpr Word even_bits(Word x) {
 // squares, and anywhere in it. The shuffled index, reversed, is the Morton number of the square. [Christensen 2018]
 inline SobolWords jittered(std::uint32_t index, SobolWords shuffle, SobolWords scramble) {
     SobolWords const i = scramble_reversed(SobolWords{} + reverse_bits(index), shuffle);  // reversed: first digit first
-    constexpr std::uint32_t all = ~0u;
-    constexpr SobolWords is_y{0, 0, 0, 0, all, all, all, all};
-    SobolWords const square = (even_bits(i >> 1) & ~is_y) | (even_bits(i) & is_y);
+    SobolWords const square = (even_bits(i >> 1) & ~sobol_is_y) | (even_bits(i) & sobol_is_y);
     return reverse_bits(scramble_reversed(reverse_bits(square << 16), scramble));
 }
 

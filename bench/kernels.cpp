@@ -72,6 +72,18 @@ void tabulate_loss(benchmark::State& state) {
 }
 BENCHMARK(tabulate_loss)->ArgName("alpha_permille")->Arg(1)->Arg(50)->Arg(1000)->Unit(benchmark::kMillisecond);
 
+// The random numbers of one path vertex, four pairs. [ns]
+void sampler(benchmark::State& state) {
+    auto const kind = static_cast<SamplerKind>(state.range(0));
+    for (std::uint32_t i = 0; auto _ : state) {
+        Sampler s(kind, 1, 7, i++);
+        s.begin_vertex(1);
+        benchmark::DoNotOptimize(s.next2());
+    }
+    state.SetLabel(sampler_names[static_cast<std::size_t>(kind)]);
+}
+BENCHMARK(sampler)->DenseRange(0, static_cast<int>(sampler_names.size()) - 1);
+
 // Reflectance of a metal under so many films, for all lanes. [ns]
 void coating(benchmark::State& state) {
     auto const constant = [](double n, double k) {

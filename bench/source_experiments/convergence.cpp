@@ -42,6 +42,7 @@ void convergence() {
     fmt::print("| scene | sampler |");
     for (int n : spp) fmt::print(" {} |", n);
     fmt::print(" slope |\n|---|---|{}---:|\n", "---:|---:|---:|---:|---:|---:|");
+    double independent = 0, sobol = -infinity;
     for (
         auto const& [name, more] :
         {std::pair("smooth", ""),
@@ -52,7 +53,8 @@ void convergence() {
                                      : 0.5 / (2 * 2 + 0.4 * 0.4) * 2 / std::sqrt(2 * 2 + 0.4 * 0.4);
         for (auto const& [sampler, kind] : {std::pair("independent", SamplerKind::independent),
                                             {"stratified", SamplerKind::stratified},
-                                            {"sobol", SamplerKind::sobol}}) {
+                                            {"sobol", SamplerKind::sobol},
+                                            {"zsobol", SamplerKind::zsobol}}) {
             std::vector<std::pair<double, double>> points;
             fmt::print("| {} | {} |", name, sampler);
             for (int n : spp) {
@@ -62,9 +64,17 @@ void convergence() {
                 points.emplace_back(n, e);
                 fmt::print(" {:.2e} |", e);
             }
-            fmt::print(" {:.2f} |\n", fit_power_law(points).slope);
+            double const slope = fit_power_law(points).slope;
+            fmt::print(" {:.2f} |\n", slope);
+            if (kind == SamplerKind::independent) independent = std::max(independent, std::abs(slope + 0.5));
+            if (more[0] == 0 && (kind == SamplerKind::sobol || kind == SamplerKind::zsobol))
+                sobol = std::max(sobol, slope);
         }
     }
+    print_verdict("slope -.5 of independent points", fmt::format("within {:.2f} of it", independent),
+                  independent < 0.05);
+    print_verdict("slope -.7 or steeper of Sobol' points where the integrand is smooth",
+                  fmt::format("{:.2f} at most", sobol), sobol <= -0.7);
 }
 
 }  // namespace iride::bench

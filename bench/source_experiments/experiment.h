@@ -22,6 +22,13 @@ void light_strategies();
 void russian_roulette();
 void convergence();
 void lamp_shapes();
+void photon_density();
+void photon_rates();
+
+// The line below a table: what it was to show, and whether it does.
+inline void print_verdict(std::string const& asked, std::string const& found, bool holds) {
+    fmt::print("\nAsked: {}. Found: {}: {}.\n", asked, found, holds ? "holds" : "**does not hold**");
+}
 
 struct Rendered {
     Film film;

@@ -28,6 +28,7 @@ void lamp_shapes() {
     fmt::print(
         "| integrator | quad, s | sphere, s | sphere / quad | error quad | error sphere "
         "|\n|---|---:|---:|---:|---:|---:|\n");
+    double most = 0;
     for (char const* integrator : {"direct:strategy=solid-angle", "direct:strategy=area", "path"}) {
         std::vector<double> ratio, a, b;
         double error_a = 0, error_b = 0;
@@ -41,7 +42,11 @@ void lamp_shapes() {
         }
         fmt::print("| {} | {:.2f} | {:.2f} | {:.2f} | {:.4f} | {:.4f} |\n", integrator, spread_of(a).median,
                    spread_of(b).median, spread_of(ratio).median, error_a, error_b);
+        most = std::max(most, spread_of(ratio).median);
     }
+    constexpr double allowed = 1.3;
+    print_verdict(fmt::format("a sphere lamp costs no more than {} quad lamps (the source: 3)", allowed),
+                  fmt::format("{:.2f} at most", most), most <= allowed);
 }
 
 }  // namespace iride::bench

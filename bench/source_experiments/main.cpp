@@ -9,12 +9,15 @@ namespace {
 
 using namespace iride::bench;
 
-constexpr std::array<Experiment, 4> table{{
+constexpr std::array<Experiment, 6> table{{
     {"light-strategies", "Direct light: directions of the hemisphere against points of the lamp, at equal samples",
      light_strategies},
     {"russian-roulette", "Variance of Russian roulette against its closed form", russian_roulette},
     {"convergence", "Error against samples: independent, stratified, Sobol'", convergence},
     {"lamp-shapes", "What a sphere lamp costs against a quad lamp", lamp_shapes},
+    {"photon-density", "Estimates of density: the source's grid of photons and neighbours, on one surface",
+     photon_density},
+    {"photon-rates", "Photon methods: error and bias against photons", photon_rates},
 }};
 
 bool is_wanted(Experiment const& e, int count, char** names) {

@@ -6,14 +6,13 @@
 // closed form. Photons are drawn from it. Cells and functions are as many as make k photons each.
 //   error: root mean square over 32 x 32 places and the repetitions of (estimate - E) / E; time: per place, look-up
 //   alone
-#include <fmt/format.h>
-
 #include <ctime>
 
 #include "base/random.h"
+#include "experiment.h"
 #include "integrators/photon/surface_density.h"
 
-using namespace iride;
+namespace iride::bench {
 
 namespace {
 
@@ -103,10 +102,12 @@ void print_row(int photons, int k) {
 
 }  // namespace
 
-int main() {
-    fmt::print("error % (mean %) ns per look-up\n\n");
+void photon_density() {
+    fmt::print("Error % (mean %) ns per look-up.\n\n");
     fmt::print("| photons | k | nearest, whole disc | nearest, disc in the square | histogram | Legendre | cosine |\n");
     fmt::print("|---|---|---|---|---|---|---|\n");
     for (int k : {80, 240, 480})
         for (int photons = 200; photons <= 12800; photons *= 2) print_row(photons, k);
 }
+
+}  // namespace iride::bench
