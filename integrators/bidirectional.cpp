@@ -34,7 +34,8 @@ class Shadowed {
 template <class Heuristic>
 class Bidirectional final : public Integrator {
   public:
-    Bidirectional(Scene const& scene, RenderPlan const& plan) : context_(scene, plan) {}
+    Bidirectional(Scene const& scene, RenderPlan const& plan)
+        : context_(scene, plan), media_(plan.media), camera_in_(plan.camera_in) {}
 
     void follow(Scene const& scene, std::span<CameraPath> paths, RayStatistics& statistics) const override {
         Work work;
@@ -65,26 +66,37 @@ class Bidirectional final : public Integrator {
 
     void walk_from_camera(Scene const& scene, CameraPath& path, Work& work, RayStatistics& statistics) const {
         Subpath<Heuristic> walk;
+        std::optional<Surroundings> in;
+        if (media_) in = camera_in_ ? *camera_in_ : surroundings_at(scene, path.ray.origin);
         for (int bounce = 0;; ++bounce) {
-            auto const hit = scene.accelerator->closest(path.ray, statistics);
+            Vector const from = path.ray.origin;
+            bool joined = true;
+            Way const way =
+                follow_to_surface(scene, path.wavelengths, path.ray, in, walk, statistics, [&](Hit const& passed) {
+                    path.radiance += from_lamp(scene, path, from, passed, walk, bounce);
+                    joined = false;
+                });
+            if (!way.complete) return void(path.complete = false);
+            auto const& hit = way.hit;
             if (!hit) return void(path.radiance += from_infinity(scene, path, walk));
             Direction const back = -path.ray.direction;
             float const arriving = std::abs(back.dot(hit->point.geometric_normal));
             if (!(arriving > 0)) return;
-            if (hit->shape->light >= 0) path.radiance += from_lamp(scene, path, *hit, walk, bounce);
+            path.radiance += from_lamp(scene, path, from, *hit, walk, bounce);
             if (bounce == context_.max_bounces) {
                 path.complete &= context_.max_bounces < longest_path;
                 return;
             }
             if (bounce == 0)
-                walk.near = Lanes(Heuristic::of(context_.light_paths /
-                                                (context_.camera.density(path.ray, hit->distance) * arriving)));
+                walk.near = Lanes(joined ? Heuristic::of(context_.light_paths /
+                                                         (context_.camera.density(path.ray, way.length) * arriving))
+                                         : 0);
             else
-                walk.arrive(hit->distance, arriving);
+                walk.arrive(way.length, arriving);
             path.sampler.begin_vertex(static_cast<std::uint32_t>(bounce));
             Sample2 const choices = path.sampler.next2(), on_light = path.sampler.next2(), on = path.sampler.next2(),
                           chances = path.sampler.next2();
-            Meeting const here(scene, *hit, back, path.wavelengths, chances.y);
+            Meeting const here(scene, *hit, back, path.wavelengths, chances.y, in);
             if (here.seen().bsdf.has_density()) {
                 sample_light(scene, path, here, walk, {choices.x, on_light}, work.shadowed);
                 for (LightVertex<Heuristic> const& vertex : work.vertices) {
@@ -93,14 +105,16 @@ class Bidirectional final : public Integrator {
                 }
             }
             if (!scatter(scene, path, here, {choices.y, on}, walk)) return;
+            in = here.beside(scene, path.ray.direction);
             if (bounce >= roulette_from && !survives<true>(walk.state, chances.x)) return;
         }
     }
 
     // s = 0: `near` and `far` as they are before the last ray's end.
-    Radiance from_lamp(Scene const& scene, CameraPath const& path, Hit const& hit, Subpath<Heuristic> const& walk,
-                       int bounce) const {
+    Radiance from_lamp(Scene const& scene, CameraPath const& path, Vector const& from, Hit const& hit,
+                       Subpath<Heuristic> const& walk, int bounce) const {
         int const index = hit.shape->light;
+        if (index < 0) return {};
         Light const& light = scene.lights.light(index);
         Direction const travel = -path.ray.direction;
         Radiance const Le = light.emitted(hit.point, travel, path.wavelengths);
@@ -108,7 +122,7 @@ class Bidirectional final : public Integrator {
         Lanes techniques = Heuristic::of(walk.state.reach);
         float const chosen = scene.lights.probability(index), cosine = travel.dot(hit.point.geometric_normal);
         if (chosen > 0 && bounce > 0) {
-            float const sampled = chosen * light.density(path.ray.origin, hit.point, hit.primitive).value;
+            float const sampled = chosen * light.density(from, hit.point, hit.primitive).value;
             float const emitted = chosen * light.emission_density(context_.ball, travel, cosine).product();
             techniques += Heuristic::of(sampled) * walk.near + Heuristic::of(emitted / std::abs(cosine)) * walk.far;
         }
@@ -149,7 +163,8 @@ class Bidirectional final : public Integrator {
         Lanes techniques = Heuristic::of(walk.state.reach) + walk.others(Lanes(p_back), Lanes(reversed.density.lane));
         if (sample->density) techniques += Heuristic::of(walk.state.reach * Lanes(s.density.lane) / chosen);
         float const scale = s.cosine / (chosen * float(mean(techniques)));
-        shadowed.add(walk.state.weight * Throughput(s.value.lane * scale) * sample->radiance,
+        Throughput const let_through = here.let_through(scene, path.wavelengths, sample->wi, sample->distance);
+        shadowed.add(walk.state.weight * let_through * Throughput(s.value.lane * scale) * sample->radiance,
                      spawn_shadow_ray(here.point(), sample->wi, sample->distance));
     }
 
@@ -177,7 +192,8 @@ class Bidirectional final : public Integrator {
         float const scale =
             f.cosine * there.adjoint_cosine(g.cosine, there.back(), towards) / (distance2 * float(mean(techniques)));
         Radiance const joined(work.flux.lane * vertex.path.state.weight.lane * g.value.lane * f.value.lane * scale);
-        work.shadowed.add(walk.state.weight * joined, spawn_shadow_ray(here.point(), towards, distance));
+        Throughput const let_through = here.let_through(scene, wavelengths, towards, distance);
+        work.shadowed.add(walk.state.weight * let_through * joined, spawn_shadow_ray(here.point(), towards, distance));
     }
 
     bool scatter(Scene const& scene, CameraPath& path, Meeting const& here, Sample3 u, Subpath<Heuristic>& walk) const {
@@ -198,6 +214,8 @@ class Bidirectional final : public Integrator {
     }
 
     TwoWayContext context_;
+    bool media_;
+    std::optional<Surroundings> camera_in_;  // absent: to be found for each path
 };
 
 }  // namespace

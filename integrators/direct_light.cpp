@@ -3,23 +3,6 @@
 
 namespace iride {
 
-Radiance from_lamp(DirectVertex const& v, LightSample const& light, float choice, bool beside_bsdf,
-                   RayStatistics& statistics) {
-    Direction const wi = v.here.frame.to_local(light.wi);
-    BsdfEvaluation const f = v.here.bsdf.evaluate(v.here.wo, wi);
-    if (is_black(f.value) || !v.here.is_consistent(light.wi, wi)) return {};
-    if (v.scene.accelerator->occluded(spawn_shadow_ray(v.hit.point, light.wi, light.distance), statistics)) return {};
-    Lanes competitors(choice);  // for a lamp without extent in its own, Dirac, measure
-    if (light.density) {
-        float const density = choice * light.density->value;
-        competitors = beside_bsdf ? Lanes(f.density.lane + density) : Lanes(density);
-    }
-    Lanes const scattered(f.value.lane * (std::abs(wi.z()) / mean(v.state.reach * competitors)));
-    Throughput const let_through =
-        behind(v.scene, v.hit, v.here, wi, v.in).medium().transmittance(light.distance, v.wavelengths);
-    return v.state.weight * scattered * let_through * light.radiance;
-}
-
 Radiance DirectLight::at(DirectVertex const& v, Sampler& sampler, RayStatistics& statistics) const {
     if (!v.here.bsdf.has_density()) return {};
     Radiance L;
@@ -63,7 +46,9 @@ Radiance DirectLight::by_lamp(DirectVertex const& v, int index, float choice, Sa
     auto const sample = settings_.strategy == DirectStrategy::area ? light.sample_by_area(from, v.wavelengths, u)
                                                                    : light.sample(from, v.wavelengths, u);
     if (!sample) return {};
-    return from_lamp(v, *sample, choice, settings_.strategy == DirectStrategy::mis, statistics);
+    bool const beside_bsdf = settings_.strategy == DirectStrategy::mis;
+    return from_lamp(
+        v, *sample, choice, [&](LaneDensity const&, float) { return beside_bsdf; }, statistics);
 }
 
 // A direction on the viewer's side; where light may come through the surface, on either side.

@@ -30,9 +30,25 @@ struct DirectVertex {
 };
 
 // What a lamp's sample brings along the path if nothing stands between, the lamp being asked with probability `choice`.
-// `beside_bsdf`: directions of the BSDF share in the same light.
-Radiance from_lamp(DirectVertex const& vertex, LightSample const& light, float choice, bool beside_bsdf,
-                   RayStatistics& statistics);
+// shares(density, |cos|): whether directions of the BSDF find the same light.
+template <class Shares>
+Radiance from_lamp(DirectVertex const& v, LightSample const& light, float choice, Shares&& shares,
+                   RayStatistics& statistics) {
+    Direction const wi = v.here.frame.to_local(light.wi);
+    float const cosine = std::abs(wi.z());
+    BsdfEvaluation const f = v.here.bsdf.evaluate(v.here.wo, wi);
+    if (is_black(f.value) || !v.here.is_consistent(light.wi, wi)) return {};
+    if (v.scene.accelerator->occluded(spawn_shadow_ray(v.hit.point, light.wi, light.distance), statistics)) return {};
+    Lanes competitors(choice);  // for a lamp without extent in its own, Dirac, measure
+    if (light.density) {
+        float const density = choice * light.density->value;
+        competitors = shares(f.density, cosine) ? Lanes(f.density.lane + density) : Lanes(density);
+    }
+    Lanes const scattered(f.value.lane * (cosine / mean(v.state.reach * competitors)));
+    Throughput const let_through =
+        behind(v.scene, v.hit, v.here, wi, v.in).medium().transmittance(light.distance, v.wavelengths);
+    return v.state.weight * scattered * let_through * light.radiance;
+}
 
 class DirectLight {
   public:

@@ -44,7 +44,11 @@ class LightTracing final : public Integrator {
         if (!sight) return std::nullopt;
         float const cosine = std::abs(sight->towards.dot(e.from.geometric_normal));
         float const scale = cosine * sight->density / (start.probability * e.density.area.value);
-        return send(e.from, *sight, light.emitted(e.from, sight->towards, wavelengths) * scale);
+        Radiance Le = light.emitted(e.from, sight->towards, wavelengths) * scale;
+        Vector const origin = spawn_ray(e.from, sight->towards).origin;
+        if (auto const in = context_.lamps_in.at(scene, start.light, origin))
+            Le *= in->medium().transmittance(sight->distance, wavelengths);
+        return send(e.from, *sight, Le);
     }
 
     TwoWayContext context_;
@@ -61,7 +65,6 @@ std::string why_no_light_paths(Scene const& scene, RenderPlan const& plan) {
     std::string const camera = CameraImportance::why_unsupported(scene.camera);
     if (!camera.empty()) return camera;
     if (plan.scattering) return "a medium scatters, and light paths do not";
-    if (plan.media) return "its bodies absorb or lie in one another, and light paths do not carry what they are in";
     if (!scene.lights.has_power()) return "no light has any power";
     return {};
 }

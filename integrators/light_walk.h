@@ -4,6 +4,8 @@
 // there (scene/light.h) or have met it by scattering.
 #pragma once
 
+#include "integrators/light_surroundings.h"
+#include "integrators/media.h"
 #include "integrators/subpath.h"
 #include "scene/camera_importance.h"
 
@@ -13,12 +15,14 @@ namespace iride {
 struct TwoWayContext {
     CameraImportance camera;
     Ball ball;
+    LightSurroundings lamps_in;
     float light_paths;  // for each camera path of a pixel: the number of pixels
     int max_bounces;
 
     TwoWayContext(Scene const& scene, RenderPlan const& plan)
         : camera(scene.camera, scene.film.width, scene.film.height),
           ball{scene.centre(), scene.radius()},
+          lamps_in(scene, plan),
           light_paths(static_cast<float>(scene.film.width) * static_cast<float>(scene.film.height)),
           max_bounces(plan.max_bounces.value_or(longest_path)) {}
 };
@@ -53,6 +57,30 @@ inline std::optional<SentToCamera> send(SurfacePoint const& from, SightOfCamera 
     return SentToCamera{{sight.x, sight.y, value}, spawn_shadow_ray(from, sight.towards, sight.distance)};
 }
 
+// The way to the next surface that is one, through those that are none: passed(hit) is called for each of them. No
+// vertex is joined with another through them, so `near` ends there.
+struct Way {
+    std::optional<Hit> hit;
+    float length = 0;  // to the hit
+    bool complete = true;
+};
+template <class Heuristic, class Passed>
+Way follow_to_surface(Scene const& scene, Wavelengths const& wavelengths, Ray& ray, std::optional<Surroundings>& in,
+                      Subpath<Heuristic>& walk, RayStatistics& statistics, Passed&& passed) {
+    Way way;
+    if (in)
+        way.complete =
+            reach_surface(scene, wavelengths, ray, *in, walk.state.weight, way.hit, statistics, [&](Hit const& hit) {
+                passed(hit);
+                way.length += hit.distance;
+                walk.near = Lanes();
+            });
+    else
+        way.hit = scene.accelerator->closest(ray, statistics);
+    if (way.hit) way.length += way.hit->distance;
+    return way;
+}
+
 // The light path that goes with a camera path. start(LightStart, Sample2) is called once with numbers for the lens,
 // vertex(LightVertex, flux, Sample2) at each vertex that has a density. Sets path.complete to false where it gives up.
 template <class Heuristic, class Start, class Visit>
@@ -75,31 +103,39 @@ void walk_from_light(Scene const& scene, TwoWayContext const& context, CameraPat
     Subpath<Heuristic> walk;
     Ray ray = extent == LightExtent::area ? spawn_ray(emitted->from, emitted->travel)
                                           : Ray{emitted->from.position, emitted->travel};
+    std::optional<Surroundings> in = context.lamps_in.at(scene, choice.index, ray.origin);
+    if (in) walk.state.weight *= LightSurroundings::left(light, *in, wavelengths);
     for (int number = 1; number <= context.max_bounces; ++number) {
-        auto const hit = scene.accelerator->closest(ray, statistics);
-        if (!hit) return;
+        bool joined = true;
+        Way const way =
+            follow_to_surface(scene, wavelengths, ray, in, walk, statistics, [&](Hit const&) { joined = false; });
+        path.complete &= way.complete;
+        if (!way.hit || !way.complete) return;
+        Hit const& hit = *way.hit;
         Direction const back = -ray.direction;
-        float const arriving = std::abs(back.dot(hit->point.geometric_normal));
+        float const arriving = std::abs(back.dot(hit.point.geometric_normal));
         if (!(arriving > 0)) return;
         if (number == 1)
-            begin(light, start, *hit, arriving, scene.lights.probability(choice.index), walk);
+            begin(light, start, hit, arriving, joined ? scene.lights.probability(choice.index) : 0, walk);
         else
-            walk.arrive(hit->distance, arriving);
+            walk.arrive(way.length, arriving);
         sampler.begin_vertex(light_block + static_cast<std::uint32_t>(number));
         Sample2 const choices = sampler.next2(), lens = sampler.next2(), on = sampler.next2(),
                       chances = sampler.next2();
-        LightVertex<Heuristic> const here{Meeting(scene, *hit, back, wavelengths, chances.y), walk, number};
+        LightVertex<Heuristic> const here{Meeting(scene, hit, back, wavelengths, chances.y, in), walk, number};
         if (here.meeting.seen().bsdf.has_density()) on_vertex(here, flux, lens);
         if (number == longest_path) path.complete = false;
         if (number == context.max_bounces ||
             !scatter_light(scene, wavelengths, here.meeting, {choices.y, on}, walk, ray))
             return;
+        in = here.meeting.beside(scene, ray.direction);
         constexpr int roulette_from = 2;
         if (number > roulette_from && !survives<true>(walk.state, chances.x)) return;
     }
 }
 
-// near and far at the first vertex: the light drawn from there, and met from there by scattering.
+// near and far at the first vertex: the light drawn from there, with that probability of being chosen, and met from
+// there by scattering.
 template <class Heuristic>
 void begin(Light const& light, LightStart const& start, Hit const& hit, float arriving, float chosen_from_there,
            Subpath<Heuristic>& walk) {
@@ -166,7 +202,8 @@ std::optional<SentToCamera> send_to_camera(Scene const& scene, TwoWayContext con
     Lanes techniques = Heuristic::of(here.path.state.reach);
     if (weighed) techniques += here.path.others(Lanes(density * at.cosine(viewer)), Lanes(s.density.lane));
     float const scale = at.adjoint_cosine(s.cosine, at.back(), viewer) * sight->density / float(mean(techniques));
-    return send(at.point(), *sight, Radiance(flux.lane * here.path.state.weight.lane * s.value.lane * scale));
+    Throughput const arriving = here.path.state.weight * at.let_through(scene, wavelengths, viewer, sight->distance);
+    return send(at.point(), *sight, Radiance(flux.lane * arriving.lane * s.value.lane * scale));
 }
 
 }  // namespace iride

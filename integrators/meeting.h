@@ -30,11 +30,13 @@ struct Scattering {
 
 class Meeting {
   public:
+    // `in`: what the path from there is in; absent if every surface knows what lies before it and nothing absorbs.
     Meeting(Scene const& scene, Hit const& met, Direction const& to_previous, Wavelengths const& wavelengths,
-            float choice)
+            float choice, std::optional<Surroundings> const& in)
         : hit_(described(met, to_previous, choice)),
           back_(to_previous),
-          seen_(scene, hit_, back_, wavelengths),
+          in_(in),
+          seen_(scene, hit_, back_, wavelengths, in_ ? &*in_ : nullptr),
           flat_(hit_.point.normal == hit_.point.geometric_normal),
           two_sided_(scene.material(hit_.shape->material).traits.two_sided) {}
 
@@ -48,7 +50,20 @@ class Meeting {
                           Direction const& wi) const {
         if (is_seen_alike(viewer)) return evaluate(seen_, viewer, wi);
         Hit const turned = described(hit_, viewer, hit_.point.choice);
-        return evaluate(Interaction(scene, turned, viewer, wavelengths), viewer, wi);
+        std::optional<Surroundings> const in = beside(scene, viewer);
+        return evaluate(Interaction(scene, turned, viewer, wavelengths, in ? &*in : nullptr), viewer, wi);
+    }
+    // What a path along w is in.
+    std::optional<Surroundings> beside(Scene const& scene, Direction const& w) const {
+        std::optional<Surroundings> in = in_;
+        Body const* const body = in ? body_at(scene, hit_) : nullptr;
+        if (body && is_in_front(back_) != is_in_front(w)) in->cross(*body, is_in_front(back_));
+        return in;
+    }
+    // What is left of light along w, so far and without a surface.
+    Throughput let_through(Scene const& scene, Wavelengths const& wavelengths, Direction const& w,
+                           float distance) const {
+        return in_ ? beside(scene, w)->medium().transmittance(distance, wavelengths) : Throughput(1);
     }
     // |w.n_s| |v.n_g| / |w.n_g| for light that arrives from w and goes on to v, given |w.n_s|.
     float adjoint_cosine(float shading_cosine, Direction const& w, Direction const& v) const {
@@ -61,9 +76,10 @@ class Meeting {
     // (n_v / n_back)^2.
     Lanes squared_index_ratio(Scene const& scene, Wavelengths const& wavelengths, Direction const& v) const {
         Body const* const body = body_at(scene, hit_);
-        bool const back_in_front = back_.dot(hit_.point.geometric_normal) > 0;
-        if (!body || back_in_front == (v.dot(hit_.point.geometric_normal) > 0)) return Lanes(1);
-        Lanes const ratio = body->inside.n.at(wavelengths) / body->outside.n.at(wavelengths);
+        bool const back_in_front = is_in_front(back_);
+        if (!body || back_in_front == is_in_front(v)) return Lanes(1);
+        Medium const& outside = in_ ? in_->in_front_of(*body, back_in_front) : body->outside;
+        Lanes const ratio = body->inside.n.at(wavelengths) / outside.n.at(wavelengths);
         Lanes const entering = ratio * ratio;
         return back_in_front ? entering : Lanes(1) / entering;
     }
@@ -73,6 +89,7 @@ class Meeting {
         describe_meeting(met.point, viewer, choice);
         return met;
     }
+    bool is_in_front(Direction const& w) const { return w.dot(hit_.point.geometric_normal) > 0; }
     // Whether closure and frame are those that were made for `back`.
     bool is_seen_alike(Direction const& viewer) const {
         if (viewer == back_) return true;
@@ -88,6 +105,7 @@ class Meeting {
 
     Hit hit_;
     Direction back_;
+    std::optional<Surroundings> in_;
     Interaction seen_;
     bool flat_, two_sided_;
 };

@@ -16,6 +16,7 @@ struct Photon {
     Direction wi;      // where it came from
     std::uint16_t packet;
     std::uint16_t scatterings;
+    bool can_be_followed;  // back to its last other scattering than by Dirac lobes, or to a lamp that can be met
 };
 
 // Power of the light that a photon stands for [W/nm], divided by the photons emitted with its packet; and the density

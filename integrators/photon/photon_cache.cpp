@@ -7,13 +7,11 @@ namespace iride {
 
 namespace {
 
-// Neighbours in the first radius of a shrinking one, of one packet.
-constexpr int first_neighbours = 10;
 // Of the median distance that holds k photons, how far k are looked for: where light is weak all within count.
 constexpr float widest_search = 4;
 constexpr std::uint64_t photon_numbers = 0x70686f746f6eull;  // apart from the numbers of camera paths
 
-// Of one lamp, chosen by power; no other technique shares in it.
+// Of one lamp, chosen by power; narrow directions are also followed to it.
 Radiance direct_light(CachedPoint const& point) {
     LightSet const& lights = point.scene.lights;
     if (!lights.has_power()) return {};
@@ -21,8 +19,9 @@ Radiance direct_light(CachedPoint const& point) {
     auto const choice = lights.choose(point.light.choice);
     auto const light = lights.light(choice.index).sample(at.hit.point.position, point.wavelengths, point.light.place);
     if (!light) return {};
-    return from_lamp({point.scene, at.hit, at.here, point.wavelengths, at.state, point.in}, *light, choice.probability,
-                     false, point.statistics);
+    return from_lamp(
+        {point.scene, at.hit, at.here, point.wavelengths, at.state, point.in}, *light, choice.probability,
+        [&](LaneDensity const& density, float cosine) { return at.narrow.holds(density, cosine); }, point.statistics);
 }
 
 }  // namespace
@@ -31,18 +30,17 @@ PhotonCache::PhotonCache(Scene const& scene, RenderPlan const& plan, PhotonSetti
     : settings_(settings),
       wavelengths_(make_wavelength_sampler(scene, plan)),
       max_scatterings_(plan.max_bounces.value_or(longest_path)),
-      media_(plan.media) {}
+      lamps_in_(scene, plan),
+      reach_(scene) {}
 
 double PhotonCache::shrinkage(int i, double alpha) {
     return std::exp(std::lgamma(i + alpha) - std::lgamma(1 + alpha) - std::lgamma(i + 1.0));
 }
 
-float PhotonCache::first_radius(PhotonList const& photons, float widest) const {
+float PhotonCache::widest_radius(PhotonList const& photons, float widest) const {
     if (settings_.radius > 0) return static_cast<float>(settings_.radius);
-    int const count = settings_.progressive ? first_neighbours * settings_.packets : settings_.neighbours;
-    float const median = median_distance(photons, static_cast<std::size_t>(count));
-    float const radius = settings_.progressive ? median : widest_search * median;
-    return median > 0 ? std::min(radius, widest) : widest;
+    float const median = median_distance(photons, static_cast<std::size_t>(settings_.neighbours));
+    return median > 0 ? std::min(widest_search * median, widest) : widest;
 }
 
 void PhotonCache::prepare(Scene const& scene, SamplePass const& pass, RayStatistics& statistics) {
@@ -50,8 +48,7 @@ void PhotonCache::prepare(Scene const& scene, SamplePass const& pass, RayStatist
     if (seed_ == pass.seed && made_ == map) return;
     if (seed_ != pass.seed) {
         seed_ = pass.seed;
-        caustic_r1_ = indirect_r1_ = 0;
-        if (map > 0) shoot(scene, pass.seed, 0, statistics);  // for the first radius
+        if (map > 0) shoot(scene, pass.seed, 0, statistics);  // for the widest radius
     }
     shoot(scene, pass.seed, map, statistics);
 }
@@ -61,30 +58,30 @@ void PhotonCache::shoot(Scene const& scene, std::uint64_t seed, int map, RayStat
     packets_.emplace(wavelengths_, settings_.packets, hash_words(key, 1));
     int const each = (settings_.photons + settings_.packets - 1) / settings_.packets;
     PhotonHarvest harvest =
-        shoot_photons(scene, *packets_, {key, each, std::max(0, max_scatterings_ - 1), media_}, statistics);
+        shoot_photons(scene, *packets_, {key, each, std::max(0, max_scatterings_ - 1), lamps_in_}, statistics);
     if (map == 0) {
         float const widest = scene.radius() / 10;
-        caustic_r1_ = first_radius(harvest.caustic, widest);
-        indirect_r1_ = first_radius(harvest.indirect, widest);
+        caustic_widest_ = widest_radius(harvest.caustic, widest);
+        indirect_widest_ = widest_radius(harvest.indirect, widest);
     }
-    auto const shrunk = static_cast<float>(settings_.progressive ? std::sqrt(shrinkage(map + 1, settings_.alpha)) : 1);
-    auto const take = [&](PhotonList& photons, float r1, Neighbourhood& around, PhotonMap& into) {
-        around = {r1 * shrunk, settings_.progressive ? 0 : settings_.neighbours};
-        float const cell = settings_.progressive ? 2 * around.radius : around.radius / widest_search;
-        into = PhotonMap(std::move(photons), cell, settings_.progressive);
+    auto const share = static_cast<float>(settings_.progressive ? std::sqrt(shrinkage(map + 1, settings_.alpha)) : 1);
+    auto const take = [&](PhotonList& photons, float widest, Neighbourhood& around, PhotonMap& into) {
+        around = {widest, settings_.neighbours, share};
+        into = PhotonMap(std::move(photons), widest / widest_search);
     };
-    take(harvest.caustic, caustic_r1_, around_caustic_, caustic_);
-    take(harvest.indirect, indirect_r1_, around_indirect_, indirect_);
+    take(harvest.caustic, caustic_widest_, around_caustic_, caustic_);
+    take(harvest.indirect, indirect_widest_, around_indirect_, indirect_);
     made_ = map;
 }
 
 Radiance PhotonCache::direct_and_caustic(CachedPoint const& point) const {
     if (point.at.scatterings >= max_scatterings_) return {};
-    return direct_light(point) + caustic_.brought(point.at, around_caustic_);
+    return direct_light(point) + caustic_.brought(point.at, within(around_caustic_, reach_.of(*point.at.hit.shape)));
 }
 
 Radiance PhotonCache::all(CachedPoint const& point) const {
-    return direct_and_caustic(point) + indirect_.brought(point.at, around_indirect_);
+    return direct_and_caustic(point) +
+           indirect_.brought(point.at, within(around_indirect_, reach_.of(*point.at.hit.shape)));
 }
 
 }  // namespace iride

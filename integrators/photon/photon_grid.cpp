@@ -7,8 +7,7 @@
 
 namespace iride {
 
-PhotonGrid::PhotonGrid(std::vector<Entry> entries, float cell, bool apart)
-    : cell_(cell), per_cell_(1 / cell), apart_(apart) {
+PhotonGrid::PhotonGrid(std::vector<Entry> entries, float cell) : cell_(cell), per_cell_(1 / cell) {
     check(cell > 0, "a cell has an extent");
     if (entries.empty()) return;
     Vector low = entries.front().position;
@@ -18,7 +17,7 @@ PhotonGrid::PhotonGrid(std::vector<Entry> entries, float cell, bool apart)
     std::vector<std::uint32_t> where;
     where.reserve(entries.size());
     for (Entry const& e : entries) {
-        where.push_back(static_cast<std::uint32_t>(bucket(cell_of(e.position), e.group)));
+        where.push_back(static_cast<std::uint32_t>(bucket(cell_of(e.position))));
         ++first_[where.back() + 1];
     }
     for (std::size_t b = 1; b < first_.size(); ++b) first_[b] += first_[b - 1];

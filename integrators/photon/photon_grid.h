@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Points in the cells of a grid, found by a hash of the cell: those within a distance, and the nearest ones. Built by a
-// counting sort, O(n); a ball no wider than a cell touches at most eight. [Teschner 2003]
+// Points in the cells of a grid, found by a hash of the cell: the nearest ones. Built by a counting sort, O(n).
+// [Teschner 2003]
 #pragma once
 
 #include <cstdint>
@@ -15,25 +15,15 @@ class PhotonGrid {
   public:
     struct Entry {
         Vector position;
-        std::uint32_t group;  // looked up apart: one of them, or any
+        std::uint32_t group;
         std::uint32_t index;  // as it was given
     };
 
     PhotonGrid() = default;
-    // Cells of side `cell` [m], > 0. With `apart`, entries of a group are only found by that group.
-    PhotonGrid(std::vector<Entry> entries, float cell, bool apart);
+    // Cells of side `cell` [m], > 0.
+    PhotonGrid(std::vector<Entry> entries, float cell);
 
     std::size_t size() const { return entry_.size(); }
-
-    // visit(entry, distance^2) of the entries of `group` no farther than r, in an order of their own.
-    template <class Visit>
-    void within(Vector const& p, float r, std::uint32_t group, Visit&& visit) const {
-        if (entry_.empty()) return;
-        Cell const low = cell_of(p - Vector::Constant(r)), high = cell_of(p + Vector::Constant(r));
-        for (int z = low.z; z <= high.z; ++z)
-            for (int y = low.y; y <= high.y; ++y)
-                for (int x = low.x; x <= high.x; ++x) visit_cell({x, y, z}, p, r * r, group, visit);
-    }
 
     // The `count` entries nearest to p for which wanted(entry, distance^2), no farther than r. The radius^2 that holds
     // them, the last one on it; fewer: r^2. Found are in `found`, unsorted.
@@ -53,20 +43,20 @@ class PhotonGrid {
         Vector const c = ((p - origin_) * per_cell_).array().floor();
         return {static_cast<int>(c.x()), static_cast<int>(c.y()), static_cast<int>(c.z())};
     }
-    std::size_t bucket(Cell c, std::uint32_t group) const {
+    std::size_t bucket(Cell c) const {
         auto const word = [](int i) { return static_cast<std::uint64_t>(static_cast<std::uint32_t>(i)); };
-        std::uint64_t const key = word(c.x) * 0x9e3779b97f4a7c15ull ^ word(c.y) * 0xc2b2ae3d27d4eb4full ^
-                                  word(c.z) * 0x165667b19e3779f9ull ^ (apart_ ? group + 1ull : 0ull) << 40;
+        std::uint64_t const key =
+            word(c.x) * 0x9e3779b97f4a7c15ull ^ word(c.y) * 0xc2b2ae3d27d4eb4full ^ word(c.z) * 0x165667b19e3779f9ull;
         return static_cast<std::size_t>(mix_bits(key)) & (first_.size() - 2);
     }
     template <class Visit>
-    void visit_cell(Cell c, Vector const& p, float r2, std::uint32_t group, Visit&& visit) const {
-        std::size_t const b = bucket(c, group);
+    void visit_cell(Cell c, Vector const& p, float r2, Visit&& visit) const {
+        std::size_t const b = bucket(c);
         for (std::uint32_t i = first_[b]; i < first_[b + 1]; ++i) {
             Entry const& e = entry_[i];
             float const d2 = (e.position - p).squaredNorm();
             // A bucket may hold entries of another cell.
-            if (d2 <= r2 && (!apart_ || e.group == group) && cell_of(e.position) == c) visit(e, d2);
+            if (d2 <= r2 && cell_of(e.position) == c) visit(e, d2);
         }
     }
 
@@ -74,7 +64,6 @@ class PhotonGrid {
     std::vector<std::uint32_t> first_;  // [buckets + 1], buckets a power of two
     Vector origin_{0, 0, 0};
     float cell_ = 1, per_cell_ = 1;
-    bool apart_ = false;
 };
 
 template <class Wanted>
@@ -103,7 +92,7 @@ float PhotonGrid::nearest(Vector const& p, float r, std::size_t count, Wanted&& 
             for (int y = -s; y <= s; ++y) {
                 bool const face = std::abs(z) == s || std::abs(y) == s;
                 for (int x = -s; x <= s; x += face || s == 0 ? 1 : 2 * s)
-                    visit_cell({c.x + x, c.y + y, c.z + z}, p, limit2, 0, take);
+                    visit_cell({c.x + x, c.y + y, c.z + z}, p, limit2, take);
             }
     }
     return found.size() == count ? limit2 : r * r;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "integrators/photon/photon_integrators.h"
 
+#include <utility>
+
 #include "integrators/media.h"
 #include "integrators/photon/photon_cache.h"
 #include "integrators/photon/radiosity_cache.h"
@@ -16,6 +18,7 @@ class PhotonIntegrator final : public Integrator {
     PhotonIntegrator(Scene const& scene, RenderPlan const& plan, PhotonSettings const& settings, bool gathers,
                      bool over_radiosity)
         : photons_(scene, plan, settings),
+          narrow_{static_cast<float>(settings.narrow)},
           together_(settings.progressive ? settings.packets : std::numeric_limits<int>::max()),
           gathers_(gathers),
           max_bounces_(plan.max_bounces.value_or(longest_path)),
@@ -38,6 +41,39 @@ class PhotonIntegrator final : public Integrator {
         return radiosity_ ? static_cast<RadianceCache const&>(*radiosity_) : photons_;
     }
 
+    // How the ray at hand was chosen.
+    struct Arrival {
+        bool lamps_are_seen = true;      // false: the last vertex has gathered them
+        std::optional<float> density{};  // p_hero of a narrow direction; absent: light samples do not compete
+        float mean_reach_before = 1;
+        Vector from{0, 0, 0};
+    };
+
+    // What lamps bring along the path where its ray ends.
+    static Radiance from_lamps(Scene const& scene, Ray const& ray, Hit const* hit, Wavelengths const& wavelengths,
+                               PathState const& state, Arrival const& arrival) {
+        if (!arrival.lamps_are_seen) return {};
+        LightSet const& lights = scene.lights;
+        auto const weighed = [&](Radiance const& Le, int light, auto&& density) {
+            if (is_black(Le)) return Radiance();
+            float divisor = mean(state.reach);
+            if (arrival.density)
+                divisor += arrival.mean_reach_before * lights.probability(light) * density().value / *arrival.density;
+            return state.weight * Le * (1 / divisor);
+        };
+        if (hit) {
+            int const light = hit->shape->light;
+            if (light < 0) return {};
+            return weighed(emitted_at(scene, *hit, ray, wavelengths), light,
+                           [&] { return lights.light(light).density(arrival.from, hit->point, hit->primitive); });
+        }
+        Radiance L;
+        for (int e : lights.environments())
+            L += weighed(lights.light(e).arriving(ray.direction, wavelengths), e,
+                         [&] { return lights.light(e).arriving_density(ray.direction); });
+        return L;
+    }
+
     void follow_one(Scene const& scene, CameraPath& path, RayStatistics& statistics) const {
         Sampler& sampler = path.sampler;
         int const packet = photons_.packets().choose(sampler.next());
@@ -45,17 +81,19 @@ class PhotonIntegrator final : public Integrator {
         Ray ray = path.ray;
         Surroundings in = camera_in_ ? *camera_in_ : surroundings_at(scene, ray.origin);
         PathState state;
-        bool lamps_are_seen = true, gathering = gathers_;
+        Arrival arrival;
+        bool gathering = gathers_;
         for (int bounce = 0;; ++bounce) {
-            float const per_reach = 1 / mean(state.reach);
-            auto const add = [&](Radiance const& seen) {
-                if (lamps_are_seen) path.radiance += state.weight * seen * per_reach;
+            auto const meet = [&](Hit const* hit) {
+                path.radiance += from_lamps(scene, ray, hit, wavelengths, state, arrival);
             };
             std::optional<Hit> hit;
-            if (!reach_surface(scene, wavelengths, ray, in, state.weight, hit, statistics,
-                               [&](Hit const& passed) { add(emitted_at(scene, passed, ray, wavelengths)); }))
+            if (!reach_surface(scene, wavelengths, ray, in, state.weight, hit, statistics, [&](Hit const& passed) {
+                    meet(&passed);
+                    arrival.density.reset();  // no light sample gets further
+                }))
                 return void(path.complete = false);
-            add(seen_along(scene, ray, hit, wavelengths));
+            meet(hit ? &*hit : nullptr);
             if (!hit) return;
             if (bounce >= max_bounces_) return void(path.complete = max_bounces_ < longest_path);
 
@@ -69,7 +107,7 @@ class PhotonIntegrator final : public Integrator {
                 Direction const side = ray.direction.dot(g) > 0 ? Direction(-g) : g;
                 bool const both_sides = !scene.material(hit->shape->material).traits.two_sided;
                 CachedPoint const point{
-                    scene,       {*hit, here, state, side, both_sides, packet, bounce, max_bounces_},
+                    scene,       {*hit, here, state, side, both_sides, packet, bounce, max_bounces_, narrow_},
                     ray,         in,
                     wavelengths, {choices.x, light},
                     statistics};
@@ -77,12 +115,9 @@ class PhotonIntegrator final : public Integrator {
             }
             auto const sample = here.bsdf.sample(here.wo, {choices.y, direction});
             if (!sample) return;
-            if (sample->density) {  // what other than Dirac lobes bring is there already
-                if (!gathering) return;
-                gathering = lamps_are_seen = false;
-            }
             Direction const wi = here.frame.to_world(sample->wi);
             if (!here.is_consistent(wi, sample->wi)) return;
+            if (!goes_on(*sample, state, hit->point.position, gathering, arrival)) return;
             state.weight *= sample->weight;
             state.reach *= sample->reach;
             in = behind(scene, *hit, here, sample->wi, in);
@@ -91,7 +126,22 @@ class PhotonIntegrator final : public Integrator {
         }
     }
 
+    // False where what comes from that direction has been gathered.
+    bool goes_on(BsdfSample const& sample, PathState const& state, Vector const& from, bool& gathering,
+                 Arrival& arrival) const {
+        arrival.density.reset();
+        if (!sample.density) return true;
+        float const density = sample.density->value;
+        if (narrow_.holds(density * mean(sample.reach), std::abs(sample.wi.z()))) {
+            arrival = {true, density, mean(state.reach), from};
+            return gathering || !cache().has_narrow();
+        }
+        arrival.lamps_are_seen = false;
+        return std::exchange(gathering, false);
+    }
+
     PhotonCache photons_;
+    Narrowness narrow_;
     std::optional<RadiosityCache> radiosity_;
     int together_;
     bool gathers_;
@@ -119,10 +169,9 @@ std::unique_ptr<Integrator> make(Scene const& scene, RenderPlan const& plan, Int
     s.photons = options.integer("photons", 1, most_photons, s.photons);
     s.radius = options.number("radius", at_least(0), s.radius);
     s.packets = options.integer("packets", 1, 1024, s.packets);
-    if (s.progressive)
-        s.alpha = options.number("alpha", {.least = 0, .most = 1, .least_excluded = true}, s.alpha);
-    else
-        s.neighbours = options.integer("neighbours", 2, 1 << 20, s.neighbours);
+    if (s.progressive) s.alpha = options.number("alpha", {.least = 0, .most = 1, .least_excluded = true}, s.alpha);
+    s.neighbours = options.integer("neighbours", 2, 1 << 20, s.neighbours);
+    s.narrow = options.number("narrow", at_least(1), s.narrow);
     bool over_radiosity = false;
     static constexpr std::pair<char const*, bool> sources[]{{"photons", false}, {"radiosity", true}};
     if (gathers) over_radiosity = options.one_of("source", sources, false);
@@ -138,8 +187,8 @@ std::unique_ptr<Integrator> make_photon_map(Scene const& scene, RenderPlan const
 }
 std::unique_ptr<Integrator> make_progressive_photon(Scene const& scene, RenderPlan const& plan,
                                                     IntegratorOptions& options) {
-    return make(scene, plan, options, "progressive-photon", {.photons = 100000, .packets = 4, .progressive = true},
-                false);
+    return make(scene, plan, options, "progressive-photon",
+                {.photons = 100000, .neighbours = 40, .packets = 4, .progressive = true}, false);
 }
 std::unique_ptr<Integrator> make_final_gather(Scene const& scene, RenderPlan const& plan, IntegratorOptions& options) {
     return make(scene, plan, options, "final-gather", {}, true);

@@ -28,8 +28,8 @@ std::vector<PhotonGrid::Entry> entries_of(PhotonList const& list) {
 
 }  // namespace
 
-PhotonMap::PhotonMap(PhotonList photons, float cell, bool fixed_radius)
-    : photons_(std::move(photons)), grid_(entries_of(photons_), cell, fixed_radius) {}
+PhotonMap::PhotonMap(PhotonList photons, float cell)
+    : photons_(std::move(photons)), grid_(entries_of(photons_), cell) {}
 
 Flux PhotonMap::scattered(GatherPoint const& at, std::uint32_t index) const {
     Photon const& photon = photons_.photon[index];
@@ -40,30 +40,23 @@ Flux PhotonMap::scattered(GatherPoint const& at, std::uint32_t index) const {
     if (!here.is_consistent(photon.wi, wi)) return {};
     float const cosine = std::abs(photon.wi.dot(here.geometric_normal));
     if (!(cosine > 0)) return {};
+    BsdfEvaluation const f = here.bsdf.evaluate(here.wo, wi);
+    if (photon.can_be_followed && at.narrow.holds(f.density, std::abs(wi.z()))) return {};
     float const scale = std::abs(wi.z()) / (cosine * mean(at.state.reach * power.reach));
-    return Flux(here.bsdf.evaluate(here.wo, wi).value.lane * power.flux.lane * at.state.weight.lane * scale);
+    return Flux(f.value.lane * power.flux.lane * at.state.weight.lane * scale);
 }
 
 Radiance PhotonMap::brought(GatherPoint const& at, Neighbourhood const& around) const {
     if (grid_.size() == 0) return {};
-    Vector const& p = at.hit.point.position;
+    thread_local std::vector<PhotonGrid::Neighbour> found;
     auto const packet = static_cast<std::uint32_t>(at.packet);
+    auto const wanted = [&](PhotonGrid::Entry const& e, float) { return lies_beside(photons_.photon[e.index], at); };
+    float const radius2 =
+        square(around.share) *
+        grid_.nearest(at.hit.point.position, around.radius, static_cast<std::size_t>(around.neighbours), wanted, found);
     Flux sum;
-    float radius2 = square(around.radius);
-    if (around.neighbours == 0) {
-        grid_.within(p, around.radius, packet, [&](PhotonGrid::Entry const& e, float) {
-            if (lies_beside(photons_.photon[e.index], at)) sum += scattered(at, e.index);
-        });
-    } else {
-        thread_local std::vector<PhotonGrid::Neighbour> found;
-        auto const count = static_cast<std::size_t>(around.neighbours);
-        auto const wanted = [&](PhotonGrid::Entry const& e, float) {
-            return lies_beside(photons_.photon[e.index], at);
-        };
-        radius2 = grid_.nearest(p, around.radius, count, wanted, found);
-        for (PhotonGrid::Neighbour const& f : found)
-            if (f.entry->group == packet && f.distance2 < radius2) sum += scattered(at, f.entry->index);
-    }
+    for (PhotonGrid::Neighbour const& f : found)
+        if (f.entry->group == packet && f.distance2 < radius2) sum += scattered(at, f.entry->index);
     return Radiance(sum.lane / (pi * radius2));
 }
 

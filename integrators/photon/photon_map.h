@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Radiance from the density of photons around a point: with flux Phi_p of the photons within r of it,
 //   L(wo) = sum_p f(wo, w_p) Phi_p |w_p.n_s| / |w_p.n_g| / (pi r^2)                         [Jensen 2001, sec. 7.2]
-// r is given, or that of the k-th nearest photon; then the k - 1 nearer ones count, which makes the mean right for an
-// even density. Photons are counted only if they lie on the tangent plane, nearly, and came to the same side.
+// r is R or, where k photons are nearer, the distance of the k-th of them; then the k - 1 nearer ones count, which
+// makes the mean right for an even density. A share c < 1 of that radius looks at the photons within c r alone: given
+// r, those within it lie in it as the density has them, so that the mean gets right for any density as c falls, for
+// fixed k. Photons are counted only if they lie on the tangent plane, nearly, and came to the same side.
 #pragma once
 
+#include "integrators/photon/narrow.h"
 #include "integrators/photon/photon.h"
 #include "integrators/photon/photon_grid.h"
 #include "integrators/scattering.h"
@@ -13,8 +16,9 @@ namespace iride {
 
 // How wide to look.
 struct Neighbourhood {
-    float radius = 0;    // m: the most
-    int neighbours = 0;  // of all packets; 0: all within the radius
+    float radius = 0;    // R [m]
+    int neighbours = 2;  // k, of all packets
+    float share = 1;     // c
 };
 
 // Where radiance along a camera path is wanted.
@@ -27,12 +31,13 @@ struct GatherPoint {
     int packet;
     int scatterings;  // of the camera path before this point
     int max_scatterings;
+    Narrowness narrow;  // directions that the camera path follows
 };
 
 class PhotonMap {
   public:
     PhotonMap() = default;
-    PhotonMap(PhotonList photons, float cell, bool fixed_radius);
+    PhotonMap(PhotonList photons, float cell);
 
     std::size_t size() const { return photons_.size(); }
     PhotonList const& photons() const { return photons_; }

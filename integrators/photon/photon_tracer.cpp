@@ -37,8 +37,9 @@ class PhotonWalk {
         if (is_black(flux)) return;
         Ray ray = light.extent() == LightExtent::area ? spawn_ray(emitted->from, emitted->travel)
                                                       : Ray{emitted->from.position, emitted->travel};
-        Surroundings in = shot_.media ? surroundings_at(scene_, ray.origin) : Surroundings();
+        Surroundings in = shot_.lamps_in.at(scene_, choice.index, ray.origin).value_or(Surroundings());
         PathState state;
+        state.weight = LightSurroundings::left(light, in, wavelengths);
         bool specular = true;
         for (int scattered = 0; scattered <= shot_.max_scatterings; ++scattered) {
             std::optional<Hit> hit;
@@ -50,7 +51,8 @@ class PhotonWalk {
             describe_meeting(hit->point, -ray.direction, chances.y);
             Interaction const here(scene_, *hit, -ray.direction, wavelengths, &in);
             if (scattered > 0 && here.bsdf.has_density())
-                store(specular ? harvest_.caustic : harvest_.indirect, packet, scattered, *hit, here, -ray.direction,
+                store(specular ? harvest_.caustic : harvest_.indirect,
+                      {packet, scattered, !specular || can_be_met(light)}, *hit, here, -ray.direction,
                       {flux, state.reach}, state.weight);
             auto const sample = here.bsdf.sample(here.wo, {lobe, sampler.next2()});
             if (!sample) return;
@@ -66,12 +68,20 @@ class PhotonWalk {
     }
 
   private:
-    static void store(PhotonList& list, int packet, int scattered, Hit const& hit, Interaction const& here,
+    struct Origin {
+        int packet, scattered;
+        bool can_be_followed;
+    };
+    static bool can_be_met(Light const& light) {
+        return light.extent() == LightExtent::area || light.extent() == LightExtent::environment;
+    }
+    static void store(PhotonList& list, Origin const& origin, Hit const& hit, Interaction const& here,
                       Direction const& wi, PhotonPower power, Throughput const& weight) {
         Direction const& n = here.geometric_normal;
         power.flux *= weight;
         list.photon.push_back({hit.point.position, wi.dot(n) < 0 ? Direction(-n) : n, wi,
-                               static_cast<std::uint16_t>(packet), static_cast<std::uint16_t>(scattered)});
+                               static_cast<std::uint16_t>(origin.packet), static_cast<std::uint16_t>(origin.scattered),
+                               origin.can_be_followed});
         list.power.push_back(power);
     }
 

@@ -6,6 +6,7 @@
 // times that of shading normals, as radiance is scaled there and power is not.           [Veach 1997, sec. 5.2, 5.3]
 #pragma once
 
+#include "integrators/light_surroundings.h"
 #include "integrators/photon/packets.h"
 #include "integrators/photon/photon.h"
 #include "integrators/plan.h"
@@ -16,7 +17,7 @@ struct PhotonShot {
     std::uint64_t key;    // of the random numbers
     int photons;          // emitted, of each packet
     int max_scatterings;  // a photon is not stored after more
-    bool media;           // lamps may lie in bodies (RenderPlan::media)
+    LightSurroundings const& lamps_in;
 };
 
 // All photons, in the order of their emission whatever the threads. Counts rays.

@@ -30,8 +30,10 @@ class RadianceCache {
     virtual ~RadianceCache() = default;
     // Weight and reach of the path included.
     virtual Radiance all(CachedPoint const& point) const = 0;
+    // Whether all() has narrow directions too, which otherwise the path follows.
+    virtual bool has_narrow() const = 0;
     // The same without light that comes from another scattering than by Dirac lobes: what a path adds that scatters
-    // here and gathers where it arrives next.
+    // here and gathers where it arrives next. Without narrow directions.
     virtual Radiance direct_and_caustic(CachedPoint const& point) const = 0;
 };
 

@@ -22,6 +22,7 @@ class RadiosityCache final : public RadianceCache {
         Radiance const reflected = max(Radiance(), solution_.radiance(*met, point.wavelengths) - emitted);
         return point.at.state.weight * reflected * (1 / mean(point.at.state.reach));
     }
+    bool has_narrow() const override { return true; }
     Radiance direct_and_caustic(CachedPoint const& point) const override { return photons_.direct_and_caustic(point); }
 
   private:

@@ -65,7 +65,7 @@ NeighbourDensity::NeighbourDensity(std::vector<Vector2> const& points, int k, bo
     for (Vector2 const& p : points) entries.push_back({{p.x(), p.y(), 0}, 0, 0});
     // As wide as the disc of k points would be, were they even.
     float const cell = std::sqrt(static_cast<float>(k_) / (pi * static_cast<float>(points.size())));
-    points_ = PhotonGrid(std::move(entries), cell, false);
+    points_ = PhotonGrid(std::move(entries), cell);
 }
 double NeighbourDensity::at(Vector2 const& uv) const {
     constexpr float diagonal = 1.5f;  // no point of the square is farther

@@ -174,9 +174,9 @@ TEST_CASE("scenes that light paths cannot do are refused before rendering, and w
         scene_text(view, R"("shapes": [)" + lamp + "," + sphere(R"({ "type": "conductor", "ior": "Ag" })") + "]"));
     CHECK(refusal(*mirrors, "light-tracing").find("mirror") != std::string::npos);
     CHECK(refusal(*mirrors, "bidirectional").empty());
-    auto const absorbing = load_scene(find_scene("glass-of-cordial"));
-    CHECK(refusal(*absorbing, "light-tracing").find("absorb") != std::string::npos);
-    CHECK(refusal(*absorbing, "bidirectional").find("'path'") != std::string::npos);
+    auto const scattering = load_scene(find_scene("haze"));
+    CHECK(refusal(*scattering, "light-tracing").find("scatters") != std::string::npos);
+    CHECK(refusal(*scattering, "bidirectional").find("'path'") != std::string::npos);
     auto const dark = scene_from(scene_text(view, R"("shapes": [)" + floor_quad + "]"));
     CHECK(refusal(*dark, "bidirectional").find("power") != std::string::npos);
     auto const some = scene_from(scene_text(view, R"("shapes": [)" + lamp + "," + floor_quad + "," +

@@ -34,7 +34,7 @@ PhotonHarvest harvest_of(Scene const& scene, std::uint64_t seed) {
     RenderPlan const plan = make_plan(scene);
     PacketSet const set(make_wavelength_sampler(scene, plan), packets, seed);
     RayStatistics rays;
-    return shoot_photons(scene, set, {seed, photons, longest_path, plan.media}, rays);
+    return shoot_photons(scene, set, {seed, photons, longest_path, LightSurroundings(scene, plan)}, rays);
 }
 
 // Of lane 0, mean over the packets, as each packet stands for all the light [W/nm].
