@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/quantity.h"
 
@@ -80,11 +81,22 @@ Sampled<D> min(Sampled<D> a, Sampled<D> b) {
     return Sampled<D>(a.lane < b.lane ? a.lane : b.lane);
 }
 
+// All lanes joined pair by pair, lane i with lane i ^ n / 2, then i ^ n / 4 ...: a tree, so that the steps run side by
+// side.
+template <std::size_t half = lane_count / 2, class Register, class Join>
+auto joined(Register a, Join join) {
+    if constexpr (half == 0) {
+        return a[0];
+    } else {
+        auto const turned = [&]<std::size_t... lane>(std::index_sequence<lane...>) {
+            return __builtin_shufflevector(a, a, (lane ^ half)...);
+        };
+        return joined<half / 2>(join(a, turned(std::make_index_sequence<lane_count>())), join);
+    }
+}
 template <Dimension D>
 Quantity<D> sum(Sampled<D> a) {
-    for (int half = lane_count / 2; half > 0; half /= 2)  // a tree, so that the additions run side by side
-        for (int i = 0; i < half; ++i) a.lane[i] += a.lane[i + half];
-    return Quantity<D>(a.lane[0]);
+    return Quantity<D>(joined(a.lane, [](LaneRegister x, LaneRegister y) { return x + y; }));
 }
 template <Dimension D>
 Quantity<D> mean(Sampled<D> a) {
@@ -92,27 +104,25 @@ Quantity<D> mean(Sampled<D> a) {
 }
 template <Dimension D>
 Quantity<D> largest(Sampled<D> a) {
-    for (int half = lane_count / 2; half > 0; half /= 2)
-        for (int i = 0; i < half; ++i) a.lane[i] = std::max(a.lane[i], a.lane[i + half]);
-    return Quantity<D>(a.lane[0]);
+    return Quantity<D>(joined(a.lane, [](LaneRegister x, LaneRegister y) { return x < y ? y : x; }));
+}
+// Whether a comparison of lanes holds in one of them.
+template <class Comparison>
+bool any(Comparison c) {
+    return joined(c, [](Comparison x, Comparison y) { return x | y; }) != 0;
 }
 template <Dimension D>
 bool is_black(Sampled<D> a) {
-    bool black = true;
-    for (int i = 0; i < lane_count; ++i) black &= a.lane[i] == 0;
-    return black;
+    return !any(a.lane != LaneRegister{});
 }
 template <Dimension D>
 bool is_finite(Sampled<D> a) {
-    bool finite = true;
-    for (int i = 0; i < lane_count; ++i) finite &= std::abs(a.lane[i]) < __builtin_inff();  // false for NaN
-    return finite;
+    LaneRegister const infinite = LaneRegister{} + __builtin_inff();
+    return !any(~((a.lane < infinite) & (a.lane > -infinite)));  // both are false for NaN
 }
 template <Dimension D>
 bool is_negative(Sampled<D> a) {
-    bool negative = false;
-    for (int i = 0; i < lane_count; ++i) negative |= a.lane[i] < 0;
-    return negative;
+    return any(a.lane < LaneRegister{});
 }
 
 }  // namespace iride

@@ -21,12 +21,8 @@ class Spectrum {
 
     Sampled<D> at(Wavelengths const& wavelengths) const {
         if (table_.empty()) return Sampled<D>(constant_);
-        Sampled<D> result;
-        for (int i = 0; i < lane_count; ++i) {
-            float const* const cell = table_.data() + wavelengths.cell[i];
-            result.lane[i] = cell[0] + wavelengths.fraction[i] * (cell[1] - cell[0]);
-        }
-        return result;
+        auto const [low, high] = ends_of_cells(table_.data(), wavelengths.cell);
+        return Sampled<D>(low + wavelengths.fraction * (high - low));
     }
 
     bool is_constant() const { return table_.empty(); }

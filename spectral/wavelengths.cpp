@@ -58,12 +58,10 @@ Wavelengths WavelengthSampler::sample(float u) const {
     float const scaled = u * segment_count;
     int const hero_segment = std::min(static_cast<int>(scaled), segment_count - 1);
     float const f = scaled - static_cast<float>(hero_segment);
-    LaneRegister low, high;
-    for (int i = 0; i < lane_count; ++i) {
-        int const segment = (hero_segment + i * (segment_count / lane_count)) & (segment_count - 1);
-        low[i] = knot_nm_[static_cast<std::size_t>(segment)];
-        high[i] = knot_nm_[static_cast<std::size_t>(segment) + 1];
-    }
+    LaneIndex segment;
+    for (int i = 0; i < lane_count; ++i)
+        segment[i] = (hero_segment + i * (segment_count / lane_count)) & (segment_count - 1);
+    auto const [low, high] = ends_of_cells(knot_nm_.data(), segment);
     LaneRegister const width = high - low;
     Wavelengths w;
     w.nm = low + f * width;
