@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <cstring>
 #include <optional>
 #include <string_view>
 
@@ -36,12 +37,12 @@ class Sampler {
           sample_(sample),
           reversed_pixel_(reverse_bits(pixel)),
           kind_(kind) {
-        make_block(0);
+        begin_block(0);
     }
 
     // The next pair, or the first number of it.
     Sample2 next2() {
-        if (used_ == sobol_points) make_block(block_ + 1);
+        if (used_ == sobol_points) begin_block(block_ + 1);
         int const i = used_++;
         return {number_[i], number_[i + sobol_points]};
     }
@@ -49,7 +50,17 @@ class Sampler {
 
     // Go to the block of path vertex `vertex`, whatever has been used of those before: the same decision of two paths
     // then reads the same dimension. What does not fit into a block goes to one that no vertex begins with.
-    void begin_vertex(std::uint32_t vertex) { make_block(2 * vertex + 2); }
+    void begin_vertex(std::uint32_t vertex) { begin_block(block_of(vertex)); }
+    // The same, and use up the block: its pairs become the members of `decisions`, four Sample2, in one store.
+    template <class Decisions>
+    void begin_vertex(std::uint32_t vertex, Decisions& decisions) {
+        static_assert(sizeof(Decisions) == sobol_points * sizeof(Sample2));
+        block_ = block_of(vertex);
+        used_ = sobol_points;
+        constexpr SobolWords pair_by_pair{0, 4, 1, 5, 2, 6, 3, 7};
+        Numbers const pairs = __builtin_shuffle(numbers_of_block(block_), pair_by_pair);
+        std::memcpy(&decisions, &pairs, sizeof pairs);
+    }
 
   private:
     using Numbers = float __attribute__((vector_size(sizeof(SobolWords))));
@@ -62,9 +73,14 @@ class Sampler {
         return x ^ (x >> 15);
     }
 
-    void make_block(std::uint32_t block) {
+    static std::uint32_t block_of(std::uint32_t vertex) { return 2 * vertex + 2; }
+    void begin_block(std::uint32_t block) {
         block_ = block;
         used_ = 0;
+        number_ = numbers_of_block(block);
+    }
+    // x of the block's four pairs, then y.
+    Numbers numbers_of_block(std::uint32_t block) const {
         bool const by_index = kind_ != SamplerKind::independent;
         std::uint64_t const base =
             by_index ? mix_bits(key_ + 0x9e3779b97f4a7c15ull * (block + 1ull)) : hash_words(key_, sample_, block);
@@ -87,10 +103,10 @@ class Sampler {
         }
         // The upper 24 bits: every value is exact and 1 is never reached.
         using Signed = std::int32_t __attribute__((vector_size(sizeof(SobolWords))));
-        number_ = __builtin_convertvector(reinterpret_cast<Signed>(words >> 8), Numbers) * 0x1p-24f;
+        return __builtin_convertvector(reinterpret_cast<Signed>(words >> 8), Numbers) * 0x1p-24f;
     }
 
-    Numbers number_;  // x of the block's four pairs, then y
+    Numbers number_;
     std::uint64_t key_;
     std::uint32_t sample_, reversed_pixel_, block_ = 0;
     int used_ = 0;

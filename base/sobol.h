@@ -10,6 +10,9 @@
 #pragma once
 
 #include <cstdint>
+#ifdef __AVX2__
+#include <immintrin.h>
+#endif
 
 namespace iride {
 
@@ -25,6 +28,23 @@ constexpr Word reverse_bits(Word x) {
     x = ((x >> 2) & 0x33333333u) | ((x & 0x33333333u) << 2);
     return ((x >> 1) & 0x55555555u) | ((x & 0x55555555u) << 1);
 }
+
+#ifdef __AVX2__
+// Bytes in reverse order, and in each the bits of a half byte by table.
+inline SobolWords reverse_bits(SobolWords x) {
+    using Bytes = char __attribute__((vector_size(sizeof(SobolWords))));
+    auto const looked_up = [](__m256i table, SobolWords half) {
+        return reinterpret_cast<SobolWords>(_mm256_shuffle_epi8(table, reinterpret_cast<__m256i>(half)));
+    };
+    __m256i const reversed =
+        _mm256_broadcastsi128_si256(_mm_setr_epi8(0, 8, 4, 12, 2, 10, 6, 14, 1, 9, 5, 13, 3, 11, 7, 15));
+    __m256i const to_high = _mm256_slli_epi16(reversed, 4);
+    SobolWords const bytes = looked_up(to_high, x & 0x0f0f0f0fu) | looked_up(reversed, (x >> 4) & 0x0f0f0f0fu);
+    constexpr Bytes backwards{3, 2, 1, 0, 7, 6, 5, 4, 11, 10, 9, 8, 15, 14, 13, 12,
+                              3, 2, 1, 0, 7, 6, 5, 4, 11, 10, 9, 8, 15, 14, 13, 12};
+    return looked_up(reinterpret_cast<__m256i>(bytes), reinterpret_cast<SobolWords>(backwards));
+}
+#endif
 
 // Pascal's matrix mod 2 applied to a vector of bits: y_j = sum of x_k over all k that contain j.
 template <class Word>

@@ -26,8 +26,8 @@ PathStarter::PathStarter(Scene const& scene, RenderPlan const& plan, int width, 
 }
 
 void PathStarter::start(int x, int y, std::uint32_t sample, CameraPath& path) const {
-    path.sampler =
-        Sampler(kind_, seed_, morton_number(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)), sample);
+    std::construct_at(&path.sampler, kind_, seed_,
+                      morton_number(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)), sample);
     Sample2 const place = place_in_pixel(path.sampler.next2());
     path.wavelengths = wavelengths_.sample(path.sampler.next());
     path.ray = camera_.ray(static_cast<float>(x) + 0.5f + place.x, static_cast<float>(y) + 0.5f + place.y,
