@@ -8,7 +8,8 @@ namespace iride {
 
 namespace {
 
-constexpr int roulette_from = 2;  // scatterings before camera paths may end by chance
+constexpr float usual_share = 0.25f;  // of aimed light paths, for each camera path
+constexpr int roulette_from = 2;      // scatterings before camera paths may end by chance
 
 // What arrives if nothing stands between: contributions of one camera path, their rays traced together.
 class Shadowed {
@@ -31,11 +32,14 @@ class Shadowed {
     std::vector<ShadowQuery> queries_;
 };
 
-template <class Heuristic>
+template <class Heuristic, class Emission>
 class Bidirectional final : public Integrator {
   public:
-    Bidirectional(Scene const& scene, RenderPlan const& plan)
-        : context_(scene, plan), media_(plan.media), camera_in_(plan.camera_in) {}
+    Bidirectional(Scene const& scene, RenderPlan const& plan, Emission emission = {}, float share_of_light_paths = 1)
+        : context_(scene, plan, share_of_light_paths),
+          emission_(std::move(emission)),
+          media_(plan.media),
+          camera_in_(plan.camera_in) {}
 
     void follow(Scene const& scene, std::span<CameraPath> paths, RayStatistics& statistics) const override {
         Work work;
@@ -43,10 +47,10 @@ class Bidirectional final : public Integrator {
             work.vertices.clear();
             work.shadowed.clear();
             walk_from_light<Heuristic>(
-                scene, context_, path, statistics, [](LightStart const&, Sample2) {},
+                scene, context_, emission_, path, statistics, [](LightStart const&, Sample2) {},
                 [&](LightVertex<Heuristic> const& here, Flux const& flux, Sample2 lens) {
                     work.flux = flux;
-                    work.vertices.push_back(here);
+                    if constexpr (Heuristic::joins) work.vertices.push_back(here);
                     auto const sent = send_to_camera(scene, context_, path.wavelengths, here, flux, lens, true);
                     if (sent && !scene.accelerator->occluded(sent->shadow_ray, statistics))
                         path.splats.push_back(sent->splat);
@@ -123,7 +127,7 @@ class Bidirectional final : public Integrator {
         float const chosen = scene.lights.probability(index), cosine = travel.dot(hit.point.geometric_normal);
         if (chosen > 0 && bounce > 0) {
             float const sampled = chosen * light.density(from, hit.point, hit.primitive).value;
-            float const emitted = chosen * light.emission_density(context_.ball, travel, cosine).product();
+            float const emitted = emission_.density(scene, context_.ball, index, hit.point.position, travel, cosine);
             techniques += Heuristic::of(sampled) * walk.near + Heuristic::of(emitted / std::abs(cosine)) * walk.far;
         }
         return walk.state.weight * Le * (1 / float(mean(techniques)));
@@ -138,7 +142,7 @@ class Bidirectional final : public Integrator {
             if (chosen > 0)
                 techniques +=
                     Heuristic::of(chosen * light.arriving_density(wi).value) * walk.near +
-                    Heuristic::of(chosen * light.emission_density(context_.ball, -wi, 1).product()) * walk.far;
+                    Heuristic::of(emission_.density(scene, context_.ball, e, path.ray.origin, -wi, 1)) * walk.far;
             L += walk.state.weight * light.arriving(wi, path.wavelengths) * (1 / float(mean(techniques)));
         }
         return L;
@@ -155,12 +159,17 @@ class Bidirectional final : public Integrator {
         Scattering const s = here.scattering(scene, path.wavelengths, here.back(), sample->wi);
         if (is_black(s.value)) return;
         float const chosen = choice.probability * (sample->density ? sample->density->value : 1);
-        Scattering const reversed = here.scattering(scene, path.wavelengths, sample->wi, here.back());
         // The density over area here of the light's own paths, over that of this sample.
-        float p_back = scene.lights.probability(choice.index) * here.cosine(sample->wi) / chosen *
-                       light.emission_density(context_.ball, -sample->wi, sample->cosine).product() / sample->cosine;
+        float p_back =
+            here.cosine(sample->wi) / (chosen * sample->cosine) *
+            emission_.density(scene, context_.ball, choice.index, here.point().position + sample->distance * sample->wi,
+                              -sample->wi, sample->cosine);
         if (light.extent() == LightExtent::point) p_back /= square(sample->distance);
-        Lanes techniques = Heuristic::of(walk.state.reach) + walk.others(Lanes(p_back), Lanes(reversed.density.lane));
+        Lanes techniques = Heuristic::of(walk.state.reach);
+        if (p_back > 0) {
+            Scattering const reversed = here.scattering(scene, path.wavelengths, sample->wi, here.back());
+            techniques += walk.others(Lanes(p_back), Lanes(reversed.density.lane));
+        }
         if (sample->density) techniques += Heuristic::of(walk.state.reach * Lanes(s.density.lane) / chosen);
         float const scale = s.cosine / (chosen * float(mean(techniques)));
         Throughput const let_through = here.let_through(scene, path.wavelengths, sample->wi, sample->distance);
@@ -203,8 +212,10 @@ class Bidirectional final : public Integrator {
         Direction const on = seen.frame.to_world(sample->wi);
         if (!seen.is_consistent(on, sample->wi)) return false;
         if (sample->density) {
-            Scattering const reversed = here.scattering(scene, path.wavelengths, on, here.back());
-            walk.go_on(here, *sample, on, Lanes(reversed.density.lane));
+            Lanes const p_before = is_black(walk.far)
+                                       ? Lanes()
+                                       : Lanes(here.scattering(scene, path.wavelengths, on, here.back()).density.lane);
+            walk.go_on(here, *sample, on, p_before);
         } else {
             walk.go_on_through_dirac(here, *sample, here.squared_index_ratio(scene, path.wavelengths, on));
         }
@@ -214,6 +225,7 @@ class Bidirectional final : public Integrator {
     }
 
     TwoWayContext context_;
+    Emission emission_;
     bool media_;
     std::optional<Surroundings> camera_in_;  // absent: to be found for each path
 };
@@ -222,11 +234,25 @@ class Bidirectional final : public Integrator {
 
 std::unique_ptr<Integrator> make_bidirectional(Scene const& scene, RenderPlan const& plan, IntegratorOptions&) {
     check_light_paths_possible(scene, plan, "bidirectional");
-    return std::make_unique<Bidirectional<BalanceHeuristic>>(scene, plan);
+    return std::make_unique<Bidirectional<BalanceHeuristic, LampEmission>>(scene, plan);
 }
 std::unique_ptr<Integrator> make_bidirectional_power(Scene const& scene, RenderPlan const& plan, IntegratorOptions&) {
     check_light_paths_possible(scene, plan, "bidirectional-power");
-    return std::make_unique<Bidirectional<PowerHeuristic>>(scene, plan);
+    return std::make_unique<Bidirectional<PowerHeuristic, LampEmission>>(scene, plan);
+}
+std::unique_ptr<Integrator> make_caustic_path(Scene const& scene, RenderPlan const& plan, IntegratorOptions& options) {
+    constexpr char const* name = "caustic-path";
+    check_light_paths_possible(scene, plan, name);
+    AimedEmission aimed(scene);
+    if (!aimed.has_targets())
+        throw InputError({}, "integrator",
+                         fmt::format("'{}' cannot render this scene: no lamp of a place shines at a mirror or a glass; "
+                                     "'path' can",
+                                     name));
+    auto const share =
+        static_cast<float>(options.number("light_paths", {.least = 0, .most = 1, .least_excluded = true}, usual_share));
+    return std::make_unique<Bidirectional<WithoutJoins<BalanceHeuristic>, AimedEmission>>(scene, plan, std::move(aimed),
+                                                                                          share);
 }
 
 }  // namespace iride

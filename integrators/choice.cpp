@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 
+#include "integrators/light_emission_choice.h"
 #include "integrators/light_tracing.h"
 
 namespace iride {
@@ -16,11 +17,6 @@ bool is_one_of(std::string const& type, std::span<char const* const> types) {
     return std::ranges::any_of(types, [&](char const* t) { return type == t; });
 }
 
-// Throws light into narrow directions, or may.
-bool throws_caustics(NamedMaterial const& m) {
-    constexpr std::array types{"conductor", "dielectric"};
-    return is_one_of(m.type, types);
-}
 bool receives_caustics(NamedMaterial const& m) {
     constexpr std::array types{"diffuse", "oren-nayar", "plastic", "mixture", "two-sided"};
     return is_one_of(m.type, types);
@@ -33,8 +29,9 @@ AutomaticChoice choose_integrator(Scene const& scene, RenderPlan const& plan) {
     if (!hindrance.empty()) return {"path", hindrance};
     std::string const from = names_of(scene, throws_caustics), onto = names_of(scene, receives_caustics);
     if (from.empty() || onto.empty()) return {"path", "no mirror or glass throws light at a diffuse surface"};
-    if (plan.environment) return {"path", "light from infinity: most light paths would miss what the camera sees"};
-    return {"bidirectional", fmt::format("caustics of {} on {}", from, onto)};
+    if (plan.environment) return {"path", "light from infinity: most of it comes without a caustic"};
+    if (!AimedEmission(scene).has_targets()) return {"path", "no lamp of a place shines at a mirror or a glass"};
+    return {"caustic-path", fmt::format("caustics of {} on {}", from, onto)};
 }
 
 std::unique_ptr<Integrator> make_auto(Scene const& scene, RenderPlan const& plan, IntegratorOptions& options) {

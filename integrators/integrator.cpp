@@ -18,7 +18,7 @@ namespace iride {
 
 namespace {
 
-constexpr std::array<IntegratorEntry, 13> table{{
+constexpr std::array<IntegratorEntry, 14> table{{
     {"path", "path tracing: light sampling and scattering, unbiased", make_path, true},
     {"reference_path", "path tracing by scattering alone: slow, the oracle of the others", make_reference_path, true},
     {"auto", "path or bidirectional, whichever suits the scene (`iride plan` says why)", make_auto, true},
@@ -26,6 +26,8 @@ constexpr std::array<IntegratorEntry, 13> table{{
     {"bidirectional", "paths from camera and light, joined in every way: unbiased, caustics and mirror images",
      make_bidirectional},
     {"bidirectional-power", "the same, weighed by the power heuristic", make_bidirectional_power},
+    {"caustic-path",
+     "path tracing, and light paths aimed at mirrors and glass: unbiased, caustics; light_paths=", make_caustic_path},
     {"direct",
      "lamps and what they light without a stop; strategy= hemisphere, cosine, bsdf, area, solid-angle, mis; "
      "lights= uniform, power, tree, all; samples=",

@@ -23,7 +23,7 @@ class LightTracing final : public Integrator {
                     path.splats.push_back(sent->splat);
             };
             walk_from_light<BalanceHeuristic>(
-                scene, context_, path, statistics,
+                scene, context_, LampEmission{}, path, statistics,
                 [&](LightStart const& start, Sample2 lens) { show(lamp_itself(scene, path.wavelengths, start, lens)); },
                 [&](LightVertex<BalanceHeuristic> const& here, Flux const& flux, Sample2 lens) {
                     show(send_to_camera(scene, context_, path.wavelengths, here, flux, lens, false));

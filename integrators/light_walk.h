@@ -4,6 +4,7 @@
 // there (scene/light.h) or have met it by scattering.
 #pragma once
 
+#include "integrators/light_emission_choice.h"
 #include "integrators/light_surroundings.h"
 #include "integrators/media.h"
 #include "integrators/subpath.h"
@@ -16,14 +17,16 @@ struct TwoWayContext {
     CameraImportance camera;
     Ball ball;
     LightSurroundings lamps_in;
-    float light_paths;  // for each camera path of a pixel: the number of pixels
+    float share;        // of the camera paths that a light path goes with
+    float light_paths;  // for each camera path of a pixel: their share of the number of pixels
     int max_bounces;
 
-    TwoWayContext(Scene const& scene, RenderPlan const& plan)
+    TwoWayContext(Scene const& scene, RenderPlan const& plan, float share_of_paths = 1)
         : camera(scene.camera, scene.film.width, scene.film.height),
           ball{scene.centre(), scene.radius()},
           lamps_in(scene, plan),
-          light_paths(static_cast<float>(scene.film.width) * static_cast<float>(scene.film.height)),
+          share(share_of_paths),
+          light_paths(share * static_cast<float>(scene.film.width) * static_cast<float>(scene.film.height)),
           max_bounces(plan.max_bounces.value_or(longest_path)) {}
 };
 
@@ -32,13 +35,6 @@ struct LightVertex {
     Meeting meeting;
     Subpath<Heuristic> path;
     int number;  // scatterings with the one here
-};
-
-// Where the light's ray starts.
-struct LightStart {
-    int light;
-    float probability;  // of the choice among lights
-    EmissionSample sample;
 };
 
 // Blocks of random numbers of light vertices lie beyond those of camera paths.
@@ -83,27 +79,26 @@ Way follow_to_surface(Scene const& scene, Wavelengths const& wavelengths, Ray& r
 
 // The light path that goes with a camera path. start(LightStart, Sample2) is called once with numbers for the lens,
 // vertex(LightVertex, flux, Sample2) at each vertex that has a density. Sets path.complete to false where it gives up.
-template <class Heuristic, class Start, class Visit>
-void walk_from_light(Scene const& scene, TwoWayContext const& context, CameraPath& path, RayStatistics& statistics,
-                     Start&& on_start, Visit&& on_vertex) {
-    if (!scene.lights.has_power()) return;
+template <class Heuristic, class Emission, class Start, class Visit>
+void walk_from_light(Scene const& scene, TwoWayContext const& context, Emission const& emission, CameraPath& path,
+                     RayStatistics& statistics, Start&& on_start, Visit&& on_vertex) {
     Sampler& sampler = path.sampler;
     Wavelengths const& wavelengths = path.wavelengths;
     sampler.begin_vertex(light_block);
-    auto const choice = scene.lights.choose(sampler.next());
-    Light const& light = scene.lights.light(choice.index);
+    float const choice = sampler.next();
+    if (choice >= context.share) return;
     Sample2 const place = sampler.next2(), direction = sampler.next2();
-    auto const emitted = light.emit(context.ball, wavelengths, place, direction);
-    if (!emitted) return;
-    LightStart const start{choice.index, choice.probability, *emitted};
-    on_start(start, sampler.next2());
+    auto const start = emission.start(scene, context.ball, wavelengths, choice / context.share, place, direction);
+    if (!start) return;
+    on_start(*start, sampler.next2());
 
-    LightExtent const extent = light.extent();
-    Flux const flux = emitted->flux() * (1 / choice.probability);
+    Light const& light = scene.lights.light(start->light);
+    EmissionSample const& emitted = start->sample;
+    Flux const flux = emitted.flux() * (1 / (start->probability * context.share));
     Subpath<Heuristic> walk;
-    Ray ray = extent == LightExtent::area ? spawn_ray(emitted->from, emitted->travel)
-                                          : Ray{emitted->from.position, emitted->travel};
-    std::optional<Surroundings> in = context.lamps_in.at(scene, choice.index, ray.origin);
+    Ray ray = light.extent() == LightExtent::area ? spawn_ray(emitted.from, emitted.travel)
+                                                  : Ray{emitted.from.position, emitted.travel};
+    std::optional<Surroundings> in = context.lamps_in.at(scene, start->light, ray.origin);
     if (in) walk.state.weight *= LightSurroundings::left(light, *in, wavelengths);
     for (int number = 1; number <= context.max_bounces; ++number) {
         bool joined = true;
@@ -116,7 +111,7 @@ void walk_from_light(Scene const& scene, TwoWayContext const& context, CameraPat
         float const arriving = std::abs(back.dot(hit.point.geometric_normal));
         if (!(arriving > 0)) return;
         if (number == 1)
-            begin(light, start, hit, arriving, joined ? scene.lights.probability(choice.index) : 0, walk);
+            begin(light, *start, hit, arriving, joined ? scene.lights.probability(start->light) : 0, walk);
         else
             walk.arrive(way.length, arriving);
         sampler.begin_vertex(light_block + static_cast<std::uint32_t>(number));

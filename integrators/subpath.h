@@ -18,18 +18,28 @@
 namespace iride {
 
 struct BalanceHeuristic {
+    static constexpr bool joins = true;
     static Lanes of(Lanes const& ratio) { return ratio; }
     static float of(float ratio) { return ratio; }
 };
 struct PowerHeuristic {
+    static constexpr bool joins = true;
     static Lanes of(Lanes const& ratio) { return ratio * ratio; }
     static float of(float ratio) { return ratio * ratio; }
+};
+
+// Where only the first vertex of a subpath is found from the other side, by light sampling or by the camera, and no
+// vertex of a camera path is joined with one of a light path: `near` counts there alone.
+template <class Heuristic>
+struct WithoutJoins : Heuristic {
+    static constexpr bool joins = false;
 };
 
 template <class Heuristic>
 struct Subpath {
     PathState state;
     Lanes near{}, far{};
+    bool first = true;  // of its vertices
 
     // After a ray of length d that arrives with |cosine| > 0.
     void arrive(float d, float cosine) {
@@ -37,19 +47,25 @@ struct Subpath {
         far *= Heuristic::of(1 / cosine);
     }
     // What the techniques that leave the last vertices of this subpath to the other side add.
-    Lanes others(Lanes const& p_back, Lanes const& p_before) const {
-        return Heuristic::of(p_back) * (near + Heuristic::of(p_before) * far);
-    }
+    Lanes others(Lanes const& p_back, Lanes const& p_before) const { return Heuristic::of(p_back) * found(p_before); }
     void go_on(Meeting const& at, BsdfSample const& sample, Direction const& on, Lanes const& p_before) {
         float const per_density = 1 / sample.density->value;
-        far = Heuristic::of(at.cosine(on) * per_density) * (near + Heuristic::of(p_before) * far);
+        far = Heuristic::of(at.cosine(on) * per_density) * found(p_before);
         near = Heuristic::of(state.reach * per_density);
         state.reach *= sample.reach;
+        first = false;
     }
     void go_on_through_dirac(Meeting const& at, BsdfSample const& sample, Lanes const& squared_index_ratio) {
         far *= Heuristic::of(sample.reach * at.cosine(at.back()) / squared_index_ratio);
         near = Lanes();
         state.reach *= sample.reach;
+        first = false;
+    }
+
+  private:
+    Lanes found(Lanes const& p_before) const {
+        if (!Heuristic::joins && !first) return Heuristic::of(p_before) * far;
+        return near + Heuristic::of(p_before) * far;
     }
 };
 
