@@ -100,9 +100,11 @@ AimedEmission::AimedEmission(Scene const& scene) : targets_(caustic_targets(scen
     for (int l = 0; l < static_cast<int>(scene.lights.size()); ++l) {
         auto const bounds = scene.lights.light(l).bounds();
         std::vector<double> shares;
+        LightClusters seen;
+        if (bounds) seen.set(0, *bounds);
         if (bounds && scene.lights.probability(l) > 0)
             for (Ball const& t : targets_)
-                shares.push_back(static_cast<double>(LightCluster(*bounds).importance({t.centre}) * square(t.radius)));
+                shares.push_back(static_cast<double>(seen.importance({t.centre})[0] * square(t.radius)));
         double sum = 0;
         for (double s : shares) sum += s;
         lights.push_back(sum);
@@ -110,7 +112,7 @@ AimedEmission::AimedEmission(Scene const& scene) : targets_(caustic_targets(scen
     }
     if (std::ranges::any_of(lights, [](double w) { return w > 0; })) lights_ = DiscreteDistribution(lights);
     for (std::size_t t = 0; t < targets_.size(); ++t) {
-        std::size_t const i = t % lane_count;
+        std::size_t const i = t % real_lanes;
         if (i == 0) registers_.emplace_back();
         Ball const& ball = targets_[t];
         BallRegister& e = registers_.back();
@@ -125,12 +127,12 @@ float AimedEmission::direction_density(int light, Vector const& from, Direction 
     float density = 0;
     for (std::size_t first = 0; first < registers_.size() && choice.size() > 0; ++first) {
         BallRegister const& e = registers_[first];
-        LaneRegister const x = e.x - from.x(), y = e.y - from.y(), z = e.z - from.z();
-        LaneRegister const along = x * travel.x() + y * travel.y() + z * travel.z(), distance2 = x * x + y * y + z * z,
-                           beyond2 = distance2 - e.radius2;
+        Real8 const x = e.x - from.x(), y = e.y - from.y(), z = e.z - from.z();
+        Real8 const along = x * travel.x() + y * travel.y() + z * travel.z(), distance2 = x * x + y * y + z * z,
+                    beyond2 = distance2 - e.radius2;
         auto const met = (beyond2 <= 0) | ((along > 0) & (along * along >= beyond2));
-        for (int i = 0; i < lane_count; ++i) {
-            int const t = static_cast<int>(first) * lane_count + i;
+        for (int i = 0; i < real_lanes; ++i) {
+            int const t = static_cast<int>(first) * real_lanes + i;
             if (met[i] && t < choice.size())
                 density += choice.probability(t) * cone_density(cone_height(distance2[i], e.radius2[i])).value;
         }

@@ -41,7 +41,7 @@ class AimedEmission {
 
     // Balls side by side in registers.
     struct BallRegister {
-        LaneRegister x{}, y{}, z{}, radius2{};
+        Real8 x{}, y{}, z{}, radius2{};
     };
     std::vector<Ball> targets_;
     std::vector<BallRegister> registers_;         // the same
