@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <charconv>
 #include <cstring>
@@ -19,7 +20,8 @@ namespace iride {
 
 namespace {
 
-constexpr char const* first_line = "iride checkpoint 1";
+constexpr char const* first_words = "iride checkpoint ";  // and the format's number
+constexpr char const* format = "2";
 constexpr int largest_side = 1 << 16;          // pixels
 constexpr std::size_t longest_head = 1 << 16;  // bytes
 static_assert(sizeof(FilmPixel) == 9 * sizeof(double) + 4 * sizeof(std::uint32_t), "a pixel has no padding");
@@ -52,6 +54,7 @@ Facts facts_of(Checkpoint const& c) {
             {"observer", film.observer().name},
             {"bands", bands},
             {"films", std::to_string(c.films.size())},
+            {"splats", film.splats() ? "1" : "0"},
             {"round", std::to_string(c.round)},
             {"exposure", fmt::format("{}", s.exposure)},
             {"white", fmt::format("{} {}", s.scene_white.x, s.scene_white.y)},
@@ -59,7 +62,8 @@ Facts facts_of(Checkpoint const& c) {
 }
 
 bool matters(std::string const& key) {
-    return key != "scene" && key != "round" && key != "exposure" && key != "white" && key != "half";
+    constexpr std::array taken_along{"scene", "splats", "round", "exposure", "white", "half"};
+    return std::ranges::find(taken_along, key) == taken_along.end();
 }
 
 std::vector<std::string> differing(Checkpoint const& a, Checkpoint const& b, auto&& is_asked) {
@@ -88,6 +92,9 @@ class Head {
   public:
     Head(std::filesystem::path const& path, std::ifstream& in) : path_(path) {
         std::string line;
+        std::getline(in, line);
+        format_ = line.substr(std::strlen(first_words));
+        text_ = line + "\n";
         for (std::size_t size = 0; std::getline(in, line) && !line.empty(); text_ += line + "\n") {
             if ((size += line.size()) > longest_head) damaged();
             auto const colon = line.find(": ");
@@ -96,6 +103,7 @@ class Head {
         if (!in) damaged();
     }
     std::string const& text() const { return text_; }
+    std::string const& format() const { return format_; }
     std::string const& operator[](std::string const& key) const {
         auto const found = value_.find(key);
         if (found == value_.end()) damaged();
@@ -125,7 +133,7 @@ class Head {
 
   private:
     std::filesystem::path path_;
-    std::string text_;
+    std::string text_, format_;
     std::map<std::string, std::string> value_;
 };
 
@@ -144,7 +152,7 @@ ExrSettings settings_of(Head const& head) {
     return s;
 }
 
-// An empty film as the head describes it; `bytes`: what the file has for all of them, which bounds what is allocated.
+// An empty film as the head describes it; `bytes`: what the file has for each, which bounds what is allocated.
 Film film_of(Head const& head, std::uintmax_t bytes) {
     auto const size = head.numbers<int>("size", 2), crop = head.numbers<int>("crop", 4);
     for (int s : size)
@@ -157,14 +165,14 @@ Film film_of(Head const& head, std::uintmax_t bytes) {
     if (band[0] > 0) bands = Bands{{band[1], band[2]}, static_cast<int>(band[0])};
     auto const pixels = static_cast<std::uintmax_t>(crop[2] - crop[0]) * static_cast<std::uintmax_t>(crop[3] - crop[1]);
     auto const count = static_cast<std::uintmax_t>(std::clamp(band[0], 0.0, 1e6));
-    if (pixels * (sizeof(FilmPixel) + count * sizeof(double)) > bytes) head.damaged();
+    bool const splats = head["splats"] == "1";
+    std::uintmax_t const of_splats = splats ? Splats::size_in_file(pixels, count) : 0;
+    if (pixels * (sizeof(FilmPixel) + count * sizeof(double)) + of_splats > bytes) head.damaged();
     if (head["observer"] != cie1931_2deg().name) head.damaged();
-    return {crop[2] - crop[0],
-            crop[3] - crop[1],
-            {crop[0], crop[1], size[0], size[1]},
-            cie1931_2deg(),
-            WavelengthGrid::covering(visible_range),
-            bands};
+    Film film(crop[2] - crop[0], crop[3] - crop[1], {crop[0], crop[1], size[0], size[1]}, cie1931_2deg(),
+              WavelengthGrid::covering(visible_range), bands);
+    if (splats) film.add_splat_layer();
+    return film;
 }
 
 // Calls `use(data, size)` for all that films hold.
@@ -172,6 +180,7 @@ void for_each_block(auto& films, auto&& use) {
     for (auto& film : films) {
         use(film.pixels().data(), film.pixels().size() * sizeof(FilmPixel));
         use(film.band_sums().data(), film.band_sums().size() * sizeof(double));
+        if (film.splats()) film.splats()->for_each_block(use);
     }
 }
 
@@ -202,7 +211,7 @@ bool share_samples(Checkpoint const& a, Checkpoint const& b) {
 
 void write_checkpoint(Checkpoint const& checkpoint, std::filesystem::path const& path) {
     AtomicFile file(path);
-    std::string head = std::string(first_line) + "\n";
+    std::string head = std::string(first_words) + format + "\n";
     for (auto const& [key, value] : facts_of(checkpoint)) head += key + ": " + value + "\n";
     head += "\n";
     std::ofstream out(file.temporary(), std::ios::binary);
@@ -221,9 +230,9 @@ void write_checkpoint(Checkpoint const& checkpoint, std::filesystem::path const&
 
 bool is_checkpoint(std::filesystem::path const& path) {
     std::ifstream in(path, std::ios::binary);
-    std::string start(std::strlen(first_line), '\0');
+    std::string start(std::strlen(first_words), '\0');
     in.read(start.data(), static_cast<std::streamsize>(start.size()));
-    return in && start == first_line;
+    return in && start == first_words;
 }
 
 Checkpoint read_checkpoint(std::filesystem::path const& path) {
@@ -233,6 +242,9 @@ Checkpoint read_checkpoint(std::filesystem::path const& path) {
     if (!is_checkpoint(path)) fail(path, "is no checkpoint of this program");
     std::ifstream in(path, std::ios::binary);
     Head const head(path, in);
+    if (head.format() != format)
+        fail(path,
+             fmt::format("is a checkpoint of format {}; this version reads and writes {}", head.format(), format));
     if (head["byte order"] != (std::endian::native == std::endian::little ? "little" : "big") ||
         head["lanes"] != std::to_string(lane_count) || head["version"] != IRIDE_VERSION)
         fail(path,
@@ -242,6 +254,7 @@ Checkpoint read_checkpoint(std::filesystem::path const& path) {
     Checkpoint c{settings_of(head), {}, head.number<int>("round")};
     auto const count = head.number<std::size_t>("films");
     if (count != 1 && count != 4) head.damaged();
+    c.settings.adaptive = count == 4;
     Film const empty = film_of(head, size / count);
     c.films.assign(count, empty);
     std::string const text = head.text() + "\n";
@@ -264,6 +277,8 @@ std::vector<std::string> obstacles_to_merging(Checkpoint const& a, Checkpoint co
     std::vector<std::string> all = differing(a, b, [](std::string const& key) {
         return matters(key) && key != "seed" && key != "first sample" && key != "crop" && key != "sampler";
     });
+    if (a.films.front().splats() && !(a.films.front().place() == b.films.front().place()))
+        all.push_back("light paths belong to the whole picture, and its window is another");
     if (all.empty() && share_samples(a, b))
         all.push_back(fmt::format("both have the same samples of some pixels: seed {}, from {} and from {}",
                                   a.settings.seed, a.settings.first_sample, b.settings.first_sample));

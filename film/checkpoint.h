@@ -3,7 +3,7 @@
 // that what is resumed ends in the same bits as what was never interrupted. Written whole or not at all.
 //
 // The file is a head of text lines "key: value" that say of what it is, an empty line, the films' pixels (FilmPixel,
-// row by row) and band sums as the processor holds them, and a hash of all before it: docs/output.md.
+// row by row), band sums and splats as the processor holds them, and a hash of all before it: docs/output.md.
 #pragma once
 
 #include <filesystem>

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/check.h"
+
 namespace iride {
 
 namespace {
@@ -104,6 +106,12 @@ void Film::for_bands(Wavelengths const& wavelengths, Power const& power, Add&& a
 void Film::reject(int x, int y, Rejection cause) { ++pixels_.at(x, y).rejected[static_cast<std::size_t>(cause)]; }
 
 void Film::add(Film const& other) {
+    if (other.splats_) {
+        check(other.place_ == place_ && other.width() == width() && other.height() == height(),
+              "splats belong to the whole picture");
+        add_splat_layer();
+        splats_->add(*other.splats_);
+    }
     for (int y = 0; y < other.height(); ++y)
         for (int x = 0; x < other.width(); ++x) {
             int const here_x = x + other.place_.x0 - place_.x0, here_y = y + other.place_.y0 - place_.y0;
@@ -176,14 +184,15 @@ Xyz Film::variance(int x, int y) const {
 MatrixDouble Film::covariance(int x, int y) const {
     FilmPixel const& p = pixels_.at(x, y);
     Xyz const v = variance(x, y);
-    MatrixDouble m = MatrixDouble::Zero();
+    MatrixDouble m = splats_ ? splats_->covariance(x, y) : MatrixDouble(MatrixDouble::Zero());
     m.diagonal() = to_vector(v);
     if (p.count < 2) return m;
     double const n = p.count;
     for (Eigen::Index c = 0; c < 3; ++c) {
         Eigen::Index const next = (c + 1) % 3;
         auto const i = static_cast<std::size_t>(c), j = static_cast<std::size_t>(next);
-        m(c, next) = m(next, c) = (p.sum_of_products[i] / n - p.sum[i] / n * (p.sum[j] / n)) / (n - 1);
+        double const camera = (p.sum_of_products[i] / n - p.sum[i] / n * (p.sum[j] / n)) / (n - 1);
+        m(c, next) = m(next, c) = m(c, next) + camera;
     }
     return m;
 }

@@ -69,12 +69,15 @@ class Film {
     // Add one sample to pixel (x, y). Calls for different pixels may run at the same time.
     void add(int x, int y, Wavelengths const& wavelengths, Radiance const& radiance);
     // Light paths add to any pixel, from any thread, once there is a layer for it; means and variances then include it.
-    void add_splat_layer() { splats_.emplace(width(), height(), bands_ ? bands_->count : 0); }
+    void add_splat_layer() {
+        if (!splats_) splats_.emplace(width(), height(), bands_ ? bands_->count : 0);
+    }
     void splat(int x, int y, Wavelengths const& wavelengths, Radiance const& radiance);
     void count_light_path() { splats_->count_path(); }
     // Count a sample that is dropped; the pixel's mean is over the samples added.
     void reject(int x, int y, Rejection cause);
-    // Add the sums of another film of the same picture, wherever in it that film lies inside this one.
+    // Add the sums of another film of the same picture, wherever in it that film lies inside this one; splats, which
+    // belong to the whole picture, only from a film of the same place.
     void add(Film const& other);
     // The mean of two films with weight 1/2 each, whatever their numbers of samples, which add up: for halves whose
     // numbers of samples depend on each other's values. The variance is that of this mean of independent films.
@@ -96,10 +99,13 @@ class Film {
     std::vector<FilmPixel> const& pixels() const { return pixels_.pixel; }
     std::vector<double>& band_sums() { return band_sum_; }  // [height][width][band]
     std::vector<double> const& band_sums() const { return band_sum_; }
+    std::optional<Splats>& splats() { return splats_; }
+    std::optional<Splats> const& splats() const { return splats_; }
     Xyz mean(int x, int y) const;
     // Variance of mean(x, y), each component; of fewer than 2 samples: infinite.
     Xyz variance(int x, int y) const;
-    // Covariance of X, Y and Z of mean(x, y); its diagonal is variance(x, y).
+    // Covariance of X, Y and Z of mean(x, y), of camera and light paths as if they were independent; its diagonal is
+    // variance(x, y).
     MatrixDouble covariance(int x, int y) const;
     // Spectral radiance of a band [W m^-2 sr^-1 nm^-1].
     double band(int x, int y, int band) const;

@@ -5,6 +5,8 @@
 #include <atomic>
 #include <cmath>
 
+#include "base/check.h"
+
 namespace iride {
 
 namespace {
@@ -35,6 +37,7 @@ Splats::Splats(int width, int height, int band_count)
       band_count_(static_cast<std::size_t>(band_count)),
       sum_(pixel_count_),
       sum_of_squares_(pixel_count_),
+      sum_of_products_(pixel_count_),
       band_sum_(pixel_count_ * band_count_) {}
 
 bool Splats::add(int x, int y, Xyz const& value) {
@@ -45,6 +48,7 @@ bool Splats::add(int x, int y, Xyz const& value) {
     for (std::size_t c = 0; c < 3; ++c) {
         sum_[index(x, y)][c].add(v[c] * share);
         sum_of_squares_[index(x, y)][c].add(v[c] * share * v[c] * share);
+        sum_of_products_[index(x, y)][c].add(v[c] * share * v[(c + 1) % 3] * share);
     }
     return true;
 }
@@ -67,13 +71,40 @@ Xyz Splats::mean(int x, int y) const {
     return {s[0].total() * scale, s[1].total() * scale, s[2].total() * scale};
 }
 
-Xyz Splats::variance(int x, int y) const {
-    std::array<double, 3> v{};
-    for (std::size_t c = 0; c < 3 && paths_ > 0; ++c) {
-        double const sum = sum_[index(x, y)][c].total(), squares = sum_of_squares_[index(x, y)][c].total();
-        v[c] = std::max(0.0, squares - sum * sum / static_cast<double>(paths_)) * pixels_per_path() * pixels_per_path();
+MatrixDouble Splats::covariance(int x, int y) const {
+    MatrixDouble m = MatrixDouble::Zero();
+    if (paths_ == 0) return m;
+    auto const& sum = sum_[index(x, y)];
+    double const paths = static_cast<double>(paths_), scale = pixels_per_path() * pixels_per_path();
+    for (std::size_t c = 0; c < 3; ++c) {
+        std::size_t const d = (c + 1) % 3;
+        double const squares = sum_of_squares_[index(x, y)][c].total(),
+                     products = sum_of_products_[index(x, y)][c].total();
+        auto const i = static_cast<Eigen::Index>(c), j = static_cast<Eigen::Index>(d);
+        m(i, i) = std::max(0.0, squares - sum[c].total() * sum[c].total() / paths) * scale;
+        m(i, j) = m(j, i) = (products - sum[c].total() * sum[d].total() / paths) * scale;
     }
-    return {v[0], v[1], v[2]};
+    return m;
+}
+
+Xyz Splats::variance(int x, int y) const {
+    MatrixDouble const m = covariance(x, y);
+    return {m(0, 0), m(1, 1), m(2, 2)};
+}
+
+void Splats::add(Splats const& other) {
+    check(other.sum_.size() == sum_.size() && other.band_sum_.size() == band_sum_.size(),
+          "splats are added up of pictures of one size and one set of bands");
+    auto const add_all = [](auto& to, auto const& from) {
+        for (std::size_t i = 0; i < to.size(); ++i)
+            for (std::size_t c = 0; c < 3; ++c) to[i][c] += from[i][c];
+    };
+    add_all(sum_, other.sum_);
+    add_all(sum_of_squares_, other.sum_of_squares_);
+    add_all(sum_of_products_, other.sum_of_products_);
+    for (std::size_t i = 0; i < band_sum_.size(); ++i) band_sum_[i] += other.band_sum_[i];
+    paths_ += other.paths_;
+    rejected_ += other.rejected_;
 }
 
 double Splats::band(int x, int y, int band) const {

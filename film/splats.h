@@ -3,7 +3,7 @@
 // on the order: a value v is kept as v = high 2^-12 + low 2^-44, two 64-bit counts that are added to on their own. A
 // splat is exact to 2^-45 and sums hold to 2^51. With v the splat over the number of pixels, N light paths for n pixels
 // give
-//   mean = n / N sum v,   variance of the mean = (n / N)^2 (sum v^2 - (sum v)^2 / N)
+//   mean = n / N sum v,   covariance of the mean = (n / N)^2 (sum v v' - sum v sum v' / N),   v, v' of X, Y, Z
 // as if the splats of one light path to one pixel were independent of one another.
 #pragma once
 
@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/vector.h"
 #include "colour/xyz.h"
 
 namespace iride {
@@ -28,7 +29,25 @@ class Splats {
 
     Xyz mean(int x, int y) const;
     Xyz variance(int x, int y) const;
+    MatrixDouble covariance(int x, int y) const;  // its diagonal is variance(x, y)
     double band(int x, int y, int band) const;
+
+    // Add all that another film of the same size and bands holds: the same bits in any order.
+    void add(Splats const& other);
+
+    // All there is, to be kept in a file: use(data, bytes), block by block in one order.
+    template <class Use>
+    void for_each_block(Use&& use) {
+        blocks(*this, use);
+    }
+    template <class Use>
+    void for_each_block(Use&& use) const {
+        blocks(*this, use);
+    }
+    // Bytes of all blocks together.
+    static std::uintmax_t size_in_file(std::uintmax_t pixels, std::uintmax_t bands) {
+        return pixels * (9 + bands) * sizeof(Sum) + 2 * sizeof(std::int64_t);
+    }
 
     static constexpr double largest = 0x1p23;  // of a splat over the number of pixels: its square still fits
 
@@ -36,17 +55,26 @@ class Splats {
     struct Sum {
         std::int64_t high = 0, low = 0;
         void add(double value);
+        void operator+=(Sum const& other) { high += other.high, low += other.low; }
         double total() const;
     };
     std::size_t index(int x, int y) const {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
     }
     double pixels_per_path() const;
+    template <class Self, class Use>
+    static void blocks(Self& self, Use& use) {
+        for (auto* sums : {&self.sum_, &self.sum_of_squares_, &self.sum_of_products_})
+            use(sums->data(), sums->size() * sizeof(std::array<Sum, 3>));
+        use(self.band_sum_.data(), self.band_sum_.size() * sizeof(Sum));
+        use(&self.paths_, sizeof self.paths_);
+        use(&self.rejected_, sizeof self.rejected_);
+    }
 
     int width_;
     std::size_t pixel_count_, band_count_;
-    std::vector<std::array<Sum, 3>> sum_, sum_of_squares_;
-    std::vector<Sum> band_sum_;  // [pixel][band]
+    std::vector<std::array<Sum, 3>> sum_, sum_of_squares_, sum_of_products_;  // X, Y, Z; XY, YZ, ZX
+    std::vector<Sum> band_sum_;                                               // [pixel][band]
     std::int64_t paths_ = 0, rejected_ = 0;
 };
 

@@ -34,7 +34,7 @@ class Integrator {
     virtual void follow(Scene const& scene, std::span<CameraPath> paths, RayStatistics& statistics) const = 0;
     // Whether a light path goes with each camera path, and leaves splats.
     virtual bool splats() const { return false; }
-    // Whether pixels or their samples share light paths: then they cannot be rendered apart.
+    // Whether pixels or their samples share light paths: then no pixel can have a number of samples of its own.
     virtual bool shares_light_paths() const { return splats(); }
     // What the user is told before the first path, such as which light will be missing.
     virtual std::vector<std::string> remarks() const { return {}; }

@@ -5,7 +5,8 @@
 #include <cmath>
 
 #include "base/sampler.h"
-#include "film/splats.h"
+#include "film/film.h"
+#include "spectral/spectrum.h"
 
 using namespace iride;
 
@@ -43,6 +44,65 @@ TEST_CASE("a splatted mean's variance is that of paths of which most bring nothi
     for (int i = 0; i < 5; ++i) splats.count_path();
     CHECK(splats.mean(0, 2).X == Approx(0.8));
     CHECK(splats.variance(0, 2).X == Approx((10 - 3.2) / 25));
+}
+
+// Of N = 5 paths, four of which bring (3, 1, 0), (1, 2, 1), twice nothing to one pixel of six: (sum v v' - sum v sum v'
+// / 5) / 25; the camera's samples of the same film add theirs, the sample covariance over n. Fails for the splats'
+// variances alone, and for products of the wrong pairs.
+TEST_CASE("a pixel's covariance is that of its samples and of its splats", "[unit]") {
+    Splats splats(2, 3, 0);
+    splats.add(0, 2, {3, 1, 0});
+    splats.add(0, 2, {1, 2, 1});
+    for (int i = 0; i < 5; ++i) splats.count_path();
+    MatrixDouble const m = splats.covariance(0, 2);
+    CHECK(m(0, 1) == Approx((5 - 4 * 3 / 5.0) / 25));
+    CHECK(m(1, 2) == Approx((2 - 3 * 1 / 5.0) / 25));
+    CHECK(m(2, 0) == Approx((1 - 1 * 4 / 5.0) / 25));
+    CHECK(m(0, 0) == Approx(splats.variance(0, 2).X));
+    CHECK((m - m.transpose()).norm() == 0);
+
+    WavelengthGrid const grid = WavelengthGrid::covering(visible_range);
+    WavelengthSampler const sampler(visible_range, visible_importance(), grid);
+    Film camera(1, 1, cie1931_2deg(), grid), both = camera, light = camera;
+    both.add_splat_layer();
+    light.add_splat_layer();
+    for (std::uint32_t i = 0; i < 20; ++i) {
+        Sampler random(SamplerKind::independent, 52, 0, i);
+        Wavelengths const w = sampler.sample(random.next());
+        Radiance const seen(random.next()), splatted(random.next());
+        camera.add(0, 0, w, seen);
+        both.add(0, 0, w, seen);
+        light.add(0, 0, w, Radiance());  // a film without samples has no variance
+        for (Film* film : {&both, &light}) {
+            film->count_light_path();
+            film->splat(0, 0, w, splatted);
+        }
+    }
+    MatrixDouble const sum = camera.covariance(0, 0) + light.covariance(0, 0);
+    CHECK((both.covariance(0, 0) - sum).norm() < 1e-12 * sum.norm());
+    CHECK(std::abs(light.covariance(0, 0)(0, 1)) > 0.1 * light.covariance(0, 0)(0, 0));
+}
+
+// Fails when sums of squares, bands or paths are forgotten.
+TEST_CASE("splats of two films added up are those of one, to the bit", "[unit]") {
+    Splats whole(3, 2, 2), first = whole, second = whole;
+    for (std::uint32_t i = 0; i < 200; ++i) {
+        Sampler s(SamplerKind::independent, 53, 0, i);
+        Xyz const value{static_cast<double>(s.next()), static_cast<double>(s.next()), static_cast<double>(s.next())};
+        int const x = static_cast<int>(3 * s.next()), y = static_cast<int>(2 * s.next());
+        for (Splats* splats : {&whole, i % 3 == 0 ? &first : &second}) {
+            splats->add(x, y, value);
+            splats->add_to_band(x, y, 1, value.X);
+            splats->count_path();
+        }
+    }
+    first.add(second);
+    for (int y = 0; y < 2; ++y)
+        for (int x = 0; x < 3; ++x) {
+            CHECK(first.mean(x, y).Z == whole.mean(x, y).Z);
+            CHECK(first.band(x, y, 1) == whole.band(x, y, 1));
+            CHECK((first.covariance(x, y) - whole.covariance(x, y)).norm() == 0);
+        }
 }
 
 TEST_CASE("a splat too large to be kept is refused", "[unit]") {
