@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// iride merge A B ... -o OUT.exr: parts of one picture, rendered apart, as if they had been rendered together.
+// iride merge A B ... -o OUT.exr: parts of one picture, rendered apart, as if they had been rendered together: from
+// checkpoints to the precision of their doubles, from pictures to that of their floats.
 #include <fmt/format.h>
 
 #include <memory>
@@ -7,7 +8,7 @@
 #include "app/command.h"
 #include "base/atomic_file.h"
 #include "base/diagnostics.h"
-#include "film/checkpoint.h"
+#include "film/exr_part.h"
 
 namespace iride {
 
@@ -18,11 +19,31 @@ struct Options {
     std::string output, colourspace = "ACEScg";
 };
 
+bool is_picture(std::string const& name) { return std::filesystem::path(name).extension() == ".exr"; }
+
+Checkpoint read_part(std::string const& name) {
+    if (!is_picture(name)) return read_checkpoint(name);
+    ExrPart part = read_exr_part(name);
+    if (!part.left_out.empty())
+        fmt::print(stderr, "note: {}: these channels are left out: {}\n", name, fmt::join(part.left_out, ", "));
+    return std::move(part.state);
+}
+
+// A picture's means have lost which of its light came by camera and which by light paths; a checkpoint's have not.
+void check_one_kind(std::vector<std::string> const& names) {
+    for (std::string const& name : names)
+        if (is_picture(name) != is_picture(names.front()))
+            throw InputError({name}, "",
+                             fmt::format("is a {} and {} is not: merge pictures or merge checkpoints",
+                                         is_picture(name) ? "picture" : "checkpoint", names.front()));
+}
+
 int run_merge(Options const& o) {
     std::filesystem::path const out = o.output;
     check_output("--output", out, ".exr");
     std::vector<Checkpoint> parts;
-    for (std::string const& name : o.parts) parts.push_back(read_checkpoint(name));
+    check_one_kind(o.parts);
+    for (std::string const& name : o.parts) parts.push_back(read_part(name));
     output_space(o.colourspace, parts.front().settings.scene_white);  // to refuse an unknown one
     std::vector<Diagnostic> wrong;
     for (std::size_t i = 0; i < parts.size(); ++i)
@@ -35,6 +56,7 @@ int run_merge(Options const& o) {
     if (!wrong.empty()) throw InputError(std::move(wrong));
     ExrSettings settings = parts.front().settings;
     settings.colourspace = o.colourspace;
+    settings.parts = static_cast<int>(parts.size());
     write_exr(picture_of(merged(parts)), settings, out);
     return exit_done;
 }
@@ -42,9 +64,11 @@ int run_merge(Options const& o) {
 }  // namespace
 
 Command add_merge(CLI::App& app) {
-    CLI::App* const parser = app.add_subcommand("merge", "Add up checkpoints of parts of a picture, by sample count");
+    CLI::App* const parser =
+        app.add_subcommand("merge", "Add up parts of a picture, checkpoints or EXR files, by sample count");
     auto const o = std::make_shared<Options>();
-    parser->add_option("PARTS", o->parts, "checkpoints: of other seeds, other samples or other crops")->required();
+    parser->add_option("PARTS", o->parts, "checkpoints, or EXR files: of other seeds, other samples or other crops")
+        ->required();
     parser->add_option("-o,--output", o->output, "EXR file to write")->required();
     parser->add_option("--colourspace", o->colourspace, "of the EXR, as for iride render")->capture_default_str();
     return {parser, [o] { return run_merge(*o); }};

@@ -98,6 +98,13 @@ std::vector<Plane> planes_of(Film const& film, ExrSettings const& s, OutputSpace
     return planes;
 }
 
+// Samples in each pixel's mean, where pixels differ in it.
+std::optional<Plane> plane_of_counts(Film const& film) {
+    auto const [least, most] = std::ranges::minmax_element(film.pixels(), {}, &FilmPixel::count);
+    if (least->count == most->count) return std::nullopt;
+    return Plane{"count", Imf::FLOAT, plane_of(film, [&](int x, int y) { return film.sample_count(x, y); }), {}};
+}
+
 Imf::Header header_of(Film const& film, ExrSettings const& s, OutputSpace const& space) {
     FilmPlace const& place = film.place();
     Imath::Box2i const display({0, 0}, {place.picture_width - 1, place.picture_height - 1});
@@ -128,6 +135,11 @@ Imf::Header header_of(Film const& film, ExrSettings const& s, OutputSpace const&
     header.insert("iride:firstSample", Imf::IntAttribute(static_cast<int>(s.first_sample)));
     text("iride:seed", std::to_string(s.seed));  // 64 bits: no integer attribute holds them
     text("iride:observer", film.observer().name);
+    if (film.bands())
+        text("iride:bands",
+             fmt::format("{} {} {}", film.bands()->count, film.bands()->range.min_nm, film.bands()->range.max_nm));
+    if (s.adaptive) header.insert("iride:adaptive", Imf::IntAttribute(1));
+    if (s.parts > 1) header.insert("iride:parts", Imf::IntAttribute(s.parts));
     header.insert("iride:exposure", Imf::DoubleAttribute(s.exposure));
     header.insert("iride:spp", Imf::IntAttribute(samples_per_pixel(film)));
     auto const rejected = film.rejected();
@@ -154,7 +166,9 @@ void write_exr(Film const& film, ExrSettings const& settings, std::filesystem::p
     AtomicFile file(path);
     Imf::Header header = header_of(film, settings, space);
     std::vector<Plane> planes = planes_of(film, settings, space);
-    for (auto const& [name, value] : extra.channels) planes.push_back({name, Imf::FLOAT, value, {}});
+    if (auto counts = plane_of_counts(film)) planes.push_back(std::move(*counts));
+    for (auto const& [name, value] : extra.channels)
+        if (planes.back().name != name) planes.push_back({name, Imf::FLOAT, value, {}});
     for (auto const& [name, value] : extra.attributes) header.insert(name, Imf::StringAttribute(value));
     Imf::FrameBuffer buffer;
     auto const width = static_cast<std::size_t>(film.width());

@@ -2,15 +2,16 @@
 // OpenEXR files out and in. Written whole or not at all.
 //
 // Channels: R G B (or X Y Z) in the output space; S0.550,000000nm ... for bands, the layout of [Fichet 2021];
-// variance.X variance.Y variance.Z: variance of the mean, of XYZ at exposure 1, always float; more layers on request
-// (integrators/layers.h).
+// variance.X variance.Y variance.Z: variance of the mean, of XYZ at exposure 1, always float; count, of samples, where
+// pixels differ in it; more layers on request (integrators/layers.h).
 // Attributes: chromaticities (typed), whiteLuminance [cd m^-2 of RGB (1,1,1), or of Y = 1], colorInteropID, sceneWhite
 // (x, y that was adapted to the file's white), spectralLayoutVersion and emissiveUnits when there are bands, and under
-// "iride:" version, sceneHash, scene, integrator, sampler, spp, seed, firstSample, observer, exposure and rejected.*
-// counts. A film that is a part of a picture is the data window in the picture's display window.
+// "iride:" version, sceneHash, scene, integrator, sampler, spp, seed, firstSample, observer, exposure, bands, adaptive,
+// parts and rejected.* counts. A film that is a part of a picture is the data window in the picture's display window.
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -30,6 +31,8 @@ struct ExrSettings {
     std::uint64_t seed = 0;
     std::string sampler = "sobol";
     std::uint32_t first_sample = 0;  // of every pixel
+    bool adaptive = false;           // pixels have numbers of samples that follow from what was found
+    int parts = 1;                   // that were merged
 };
 
 // The film's XYZ through the output space, times the exposure.
@@ -55,6 +58,14 @@ struct XyzPicture {
     Image<Xyz> xyz, variance;
     double exposure = 1;
     std::vector<std::pair<double, Image<float>>> bands;  // centre [nm], radiance
+
+    // What merging wants to know beside (film/exr_part.h).
+    Image<float> count{};                        // samples in each pixel's mean; empty unless the file has it
+    FilmPlace place{0, 0, 0, 0};                 // data window in display window
+    Chromaticity white{0.3127, 0.3290};          // sceneWhite
+    bool half = false;                           // colour as 16-bit floats
+    std::map<std::string, std::string> facts{};  // attributes "iride:KEY" by KEY, as text
+    std::vector<std::string> other_channels{};   // that are not read
 };
 XyzPicture read_exr_as_xyz(std::filesystem::path const& path);
 

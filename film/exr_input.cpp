@@ -4,7 +4,9 @@
 #include <OpenEXR/ImfDoubleAttribute.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfIntAttribute.h>
 #include <OpenEXR/ImfStandardAttributes.h>
+#include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfTestFile.h>
 #include <OpenEXR/ImfVecAttribute.h>
 #include <OpenEXR/ImfVersion.h>
@@ -98,6 +100,26 @@ class Reader {
         return images;
     }
 
+    FilmPlace place() const {
+        Imath::Box2i const& whole = header().displayWindow();
+        return {origin_.x - whole.min.x, origin_.y - whole.min.y, whole.max.x - whole.min.x + 1,
+                whole.max.y - whole.min.y + 1};
+    }
+    // Attributes "iride:KEY".
+    std::map<std::string, std::string> facts() const {
+        std::map<std::string, std::string> all;
+        std::string const ours = "iride:";
+        for (auto a = header().begin(); a != header().end(); ++a) {
+            std::string const name = a.name();
+            if (!name.starts_with(ours)) continue;
+            if (auto const* text = dynamic_cast<Imf::StringAttribute const*>(&a.attribute()))
+                all[name.substr(ours.size())] = text->value();
+            else if (auto const* number = dynamic_cast<Imf::IntAttribute const*>(&a.attribute()))
+                all[name.substr(ours.size())] = std::to_string(number->value());
+        }
+        return all;
+    }
+
     [[noreturn]] void refuse(std::string message) const { fail(path_, std::move(message)); }
 
   private:
@@ -129,6 +151,9 @@ MatrixDouble rgb_to_xyz(Reader const& in) {
     return matrix;
 }
 
+// The double of a float's shortest decimal: .3127 for .3127f.
+double as_written(float value) { return std::stod(fmt::format("{}", value)); }
+
 // The wavelength of "S0.550,000000nm", or nothing.
 std::optional<double> band_centre(std::string name) {
     if (!name.starts_with("S0.") || !name.ends_with("nm")) return std::nullopt;
@@ -147,15 +172,24 @@ std::vector<std::pair<double, std::string>> band_channels(Imf::ChannelList const
     return bands;
 }
 
+Names without(Names const& read, Imf::ChannelList const& channels) {
+    Names others;
+    for (auto c = channels.begin(); c != channels.end(); ++c)
+        if (std::ranges::find(read, c.name()) == read.end()) others.emplace_back(c.name());
+    return others;
+}
+
 XyzPicture read(std::filesystem::path const& path) {
     Reader in(path);
-    static Names const xyz{"X", "Y", "Z"}, rgb{"R", "G", "B"}, variance{"variance.X", "variance.Y", "variance.Z"};
+    static Names const count{"count"}, xyz{"X", "Y", "Z"}, rgb{"R", "G", "B"},
+        variance{"variance.X", "variance.Y", "variance.Z"};
     bool const is_xyz = in.has(xyz), has_variance = in.has(variance);
     if (!is_xyz && !in.has(rgb)) in.refuse("has neither channels R G B nor X Y Z");
     Names wanted = is_xyz ? xyz : rgb;
     if (has_variance) wanted.insert(wanted.end(), variance.begin(), variance.end());
     auto const bands = band_channels(in.header().channels());
     for (auto const& band : bands) wanted.push_back(band.second);
+    if (in.has(count)) wanted.push_back(count.front());
 
     MatrixDouble const identity = MatrixDouble::Identity();
     MatrixDouble const matrix = is_xyz ? identity : rgb_to_xyz(in);
@@ -165,9 +199,19 @@ XyzPicture read(std::filesystem::path const& path) {
     if (!(picture.exposure > 0 && picture.exposure < std::numeric_limits<double>::infinity()))
         in.refuse(fmt::format("its exposure is {}, allowed: above 0", picture.exposure));
     std::vector<Image<float>> planes = in.channels(wanted);
+    if (in.has(count)) {
+        picture.count = std::move(planes.back());
+        planes.pop_back();
+    }
     std::span<Image<float> const> const all(planes);
     picture.xyz = combined(all.first<3>(), matrix);
     if (has_variance) picture.variance = combined(all.subspan<3, 3>(), identity);
+    picture.place = in.place();
+    picture.half = in.header().channels().findChannel(wanted.front())->type == Imf::HALF;
+    picture.facts = in.facts();
+    if (auto const* const white = in.header().findTypedAttribute<Imf::V2fAttribute>("sceneWhite"))
+        picture.white = {as_written(white->value().x), as_written(white->value().y)};
+    picture.other_channels = without(wanted, in.header().channels());
     std::size_t const first_band = planes.size() - bands.size();
     for (std::size_t b = 0; b < bands.size(); ++b)
         picture.bands.emplace_back(bands[b].first, std::move(planes[first_band + b]));
