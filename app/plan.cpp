@@ -6,6 +6,7 @@
 
 #include "app/command.h"
 #include "app/vanishing_points.h"
+#include "integrators/layers.h"
 #include "integrators/plan_disable.h"
 
 namespace iride {
@@ -20,6 +21,7 @@ struct Options {
 int print_plan(Options const& o) {
     auto const scene = load_scene(find_scene(o.scene));
     RenderPlan const plan = make_plan_without(o.disabled, *scene);
+    check_layers(scene->film.aovs, *scene, plan, scene->render.integrator.name, false);
     fmt::print("{}: {}\n", scene->name, scene->description);
     fmt::print("  {} shapes, {} materials, {} lights, {} x {} pixels\n\n", scene->shapes.size(),
                scene->materials.size(), scene->lights.size(), scene->film.width, scene->film.height);

@@ -28,7 +28,8 @@ namespace {
 
 struct Options {
     std::string scene, output, integrator, size, crop, error, colourspace = "ACEScg", view, ocio, preview, report,
-                                                              checkpoint, aov, solution, sampler;
+                                                              checkpoint, solution, sampler;
+    std::optional<std::string> aov;
     int spp = 0, threads = 0;
     double seconds = 0, checkpoint_seconds = 30;
     std::int64_t seed = -1;
@@ -231,12 +232,11 @@ RenderReport sampled(Scene const& scene, RenderPlan const& plan, Integrator& int
     return render_adaptively(scene, plan, integrator, settings, settings.stop_at, state.films, state.round);
 }
 
-// Light paths are in no checkpoint, belong to the whole picture, and have no pixel's number of samples.
+// Light paths that pixels share have no pixel's number of samples, and their splats belong to the whole picture.
 void check_goes_with(Integrator const& integrator, std::string const& name, Options const& o) {
-    if (!integrator.shares_light_paths()) return;
-    for (auto const& [option, given] :
-         {std::pair("--adaptive", o.adaptive), {"--checkpoint", !o.checkpoint.empty()}, {"--crop", !o.crop.empty()}})
-        if (given)
+    for (auto const& [option, hindered] : {std::pair("--adaptive", o.adaptive && integrator.shares_light_paths()),
+                                           {"--crop", !o.crop.empty() && integrator.splats()}})
+        if (hindered)
             fail(option, fmt::format("does not go with integrator '{}', whose pixels share their light paths", name));
 }
 
@@ -257,7 +257,8 @@ int run_render(Options const& o) {
     auto const integrator = o.solution.empty() ? make_integrator(choice, *scene, plan)
                                                : radiosity::show(radiosity::load_solution(o.solution, *scene));
     check_goes_with(*integrator, name, o);
-    std::vector<std::string> const layers = parse_layers(o.aov, name, o.adaptive);
+    std::vector<std::string> const layers =
+        check_layers(o.aov ? parse_layers(*o.aov) : scene->film.aovs, *scene, plan, name, o.adaptive);
     if (!o.quiet)
         for (auto const& remarks : {scene->remarks, integrator->remarks()})
             for (std::string const& remark : remarks) fmt::print(stderr, "note: {}\n", remark);
@@ -266,7 +267,7 @@ int run_render(Options const& o) {
     ExrSettings const of{o.colourspace,    scene->film.white, scene->film.exposure,
                          scene->film.half, scene->name,       scene->hash,
                          choice.text(),    settings.seed,     sampler_names[static_cast<std::size_t>(settings.sampler)],
-                         o.first_sample};
+                         o.first_sample,   o.adaptive};
     Saving saving(o, of, o.adaptive ? make_adaptive_state(*scene, crop) : AdaptiveState{{make_film(*scene, crop)}, 0});
     std::signal(SIGINT, on_interrupt);
     std::signal(SIGTERM, on_interrupt);
@@ -325,7 +326,9 @@ Command add_render(CLI::App& app) {
     parser->add_option("--crop", o->crop, "X0,Y0,X1,Y1: only these pixels of the picture");
     std::string layers;
     for (LayerEntry const& e : layer_entries()) layers += fmt::format("\n  {}: {}", e.name, e.summary);
-    parser->add_option("--aov", o->aov, "more layers for the EXR, by name, separated by commas:" + layers);
+    parser->add_option(
+        "--aov", o->aov,
+        "more layers for the EXR, by name, separated by commas, instead of the file's film.aovs:" + layers);
     parser->add_option("--checkpoint", o->checkpoint, "file to save all samples in, and to go on from if it is there");
     parser
         ->add_option("--checkpoint-every", o->checkpoint_seconds,

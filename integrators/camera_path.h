@@ -16,14 +16,27 @@ struct Splat {
     Radiance radiance;
 };
 
+// What a path found, by the group of the light it came from (integrators/light_groups.h).
+struct LightShares {
+    int const* group_of_light = nullptr;
+    Radiance* of_group = nullptr;  // null: nobody asks
+};
+
 struct CameraPath {
     Ray ray;
     RayCone cone;
     Wavelengths wavelengths;
     Sampler sampler{SamplerKind::independent, 0, 0, 0};
     Radiance radiance;
-    bool complete = true;       // false: given up (longest_path), the sample must be dropped and counted
+    bool complete = true;  // false: given up (longest_path), the sample must be dropped and counted
+    LightShares shares;
     std::vector<Splat> splats;  // of the light path that goes with this one, Integrator::splats()
+
+    // Add what one of the scene's lights brings along the path.
+    void bring(int light, Radiance const& found) {
+        radiance += found;
+        if (shares.of_group) shares.of_group[shares.group_of_light[light]] += found;
+    }
 };
 
 // Starts path `sample` of pixel (x, y), in place: a point in the pixel drawn from the reconstruction filter, a packet

@@ -9,6 +9,7 @@
 #include "base/diagnostics.h"
 #include "colour/rgb_to_spectrum.h"
 #include "film/cryptomatte.h"
+#include "integrators/choice.h"
 #include "integrators/scattering.h"
 
 namespace iride {
@@ -17,7 +18,7 @@ namespace {
 
 constexpr std::uint32_t most_first_hits = 256;  // of a pixel: coverage to .4 %
 
-constexpr std::array<LayerEntry, 10> table{{
+constexpr std::array<LayerEntry, 11> table{{
     {"depth", "distance of the nearest first hit along the camera's axis [m], infinite where there is none"},
     {"position", "that hit's place in the world [m]"},
     {"normal", "mean geometric (Ng) and shading (N) normal, towards the viewer"},
@@ -26,6 +27,7 @@ constexpr std::array<LayerEntry, 10> table{{
     {"object", "Cryptomatte of shapes"},
     {"direct", "light that was scattered at most once"},
     {"indirect", "the rest: direct + indirect is the picture"},
+    {"groups", "light by the group of the lamp it came from: they add up to the picture"},
     {"count", "samples in the pixel's mean"},
     {"variance", "variance of X, Y and Z: in every file, asked for or not"},
 }};
@@ -68,10 +70,13 @@ class FirstHits {
     // In the order of object_number().
     static std::vector<std::string> object_names(Scene const& scene) {
         std::vector<std::string> names;
-        for (std::size_t i = 0; i < scene.shapes.size(); ++i) names.push_back(fmt::format("shapes.{}", i));
+        auto const add = [&](std::vector<Shape> const& shapes, std::string const& of) {
+            for (std::size_t i = 0; i < shapes.size(); ++i)
+                names.push_back(shapes[i].name.empty() ? fmt::format("{}.{}", of, i) : shapes[i].name);
+        };
+        add(scene.shapes, "shapes");
         for (std::size_t k = 0; k < scene.objects.size(); ++k)
-            for (std::size_t i = 0; i < scene.objects[k].shapes.size(); ++i)
-                names.push_back(fmt::format("objects.{}.{}", k, i));
+            add(scene.objects[k].shapes, fmt::format("objects.{}", k));
         return names;
     }
     int object_number(Shape const* shape) const {
@@ -173,19 +178,28 @@ void append_first_hits(ExtraLayers& layers, std::vector<std::string> const& name
     if (has(names, "object")) hits.object.append_to(layers, hits.samples);
 }
 
-// The film's paths again, ended after one scattering: the same random numbers, so each term is one of the picture's.
-void append_direct(ExtraLayers& layers, std::vector<std::string> const& names, Scene const& scene, RenderPlan plan,
-                   std::string const& integrator, RenderSettings render_settings, Film const& film,
-                   ExrSettings const& settings) {
-    plan.max_bounces = std::min(1, plan.max_bounces.value_or(1));
-    Film direct(film.width(), film.height(), film.place(), film.observer(), scene.grid, {});
+// A film's paths again: the same random numbers, so each term is one of the picture's. Nothing interrupts it.
+Film repeated(Film const& film, Scene const& scene, RenderPlan const& plan, std::string const& integrator,
+              RenderSettings settings, LightGroupFilms* groups = nullptr) {
+    Film again(film.width(), film.height(), film.place(), film.observer(), scene.grid, {});
     Image<std::uint32_t> taken(film.width(), film.height());
     std::ranges::transform(film.pixels(), taken.pixel.begin(), &FilmPixel::taken);
-    render_settings.goals = &taken;
-    render_settings.seconds.reset();
-    render_settings.stop_at.reset();
-    render_settings.on_pass = {};
-    render(scene, plan, *make_integrator(integrator, scene, plan), render_settings, direct);
+    settings.goals = &taken;
+    settings.seconds.reset();
+    settings.stop_at.reset();
+    settings.interrupted = nullptr;
+    settings.on_progress = {};
+    settings.on_pass = {};
+    settings.groups = groups;
+    render(scene, plan, *make_integrator(integrator, scene, plan), settings, again);
+    return again;
+}
+
+void append_direct(ExtraLayers& layers, std::vector<std::string> const& names, Scene const& scene, RenderPlan plan,
+                   std::string const& integrator, RenderSettings const& render, Film const& film,
+                   ExrSettings const& settings) {
+    plan.max_bounces = std::min(1, plan.max_bounces.value_or(1));
+    Film const direct = repeated(film, scene, plan, integrator, render);
     OutputSpace const space = output_space(settings.colourspace, settings.scene_white);
     Image<std::array<float, 3>> const once = to_image(direct, space, settings.exposure);
     Image<std::array<float, 3>> rest = to_image(film, space, settings.exposure);
@@ -195,29 +209,61 @@ void append_direct(ExtraLayers& layers, std::vector<std::string> const& names, S
     if (has(names, "indirect")) append(layers, "indirect", rest, space.rgb != nullptr);
 }
 
+void append_groups(ExtraLayers& layers, Scene const& scene, RenderPlan const& plan, std::string const& integrator,
+                   RenderSettings const& render, Film const& film, ExrSettings const& settings) {
+    LightGroupFilms groups(light_groups(scene), film, scene.grid);
+    repeated(film, scene, plan, integrator, render, &groups);
+    OutputSpace const space = output_space(settings.colourspace, settings.scene_white);
+    for (std::size_t g = 0; g < groups.count(); ++g)
+        append(layers, "group." + groups.name(g), to_image(groups.film(g), space, settings.exposure),
+               space.rgb != nullptr);
+}
+
+// Layers that are made of the picture's paths, from integrators that say what light a path found after how many
+// scatterings.
+bool needs_paths(std::string const& name) { return name == "direct" || name == "indirect" || name == "groups"; }
+
+// What hinders a layer; empty if nothing does.
+std::string obstacle(std::string const& name, Scene const& scene, std::string const& integrator, bool adaptive) {
+    std::vector<std::string> known;
+    for (LayerEntry const& e : table) known.emplace_back(e.name);
+    if (std::ranges::find(known, name) == known.end())
+        return fmt::format("unknown layer '{}'{}", name, suggestion(name, known));
+    if (!needs_paths(name)) return {};
+    if (integrator != "path" && integrator != "reference_path")
+        return fmt::format("the integrator '{}' cannot give the layer '{}'; allowed: path, reference_path", integrator,
+                           name);
+    if (adaptive) return fmt::format("the layer '{}' is not to be had with --adaptive", name);
+    if (name == "groups" && !light_groups(scene).named)
+        return "the layer 'groups' wants lights that have a 'group', and this scene has none";
+    return {};
+}
+
 }  // namespace
 
 std::span<LayerEntry const> layer_entries() { return table; }
 
-std::vector<std::string> parse_layers(std::string const& text, std::string const& integrator, bool adaptive) {
-    std::vector<std::string> names, known;
-    for (LayerEntry const& e : table) known.emplace_back(e.name);
+std::vector<LayerRequest> parse_layers(std::string const& text) {
+    std::vector<LayerRequest> requests;
     for (std::size_t at = 0; at < text.size();) {
         std::size_t const comma = std::min(text.find(',', at), text.size());
-        std::string const name = text.substr(at, comma - at);
+        requests.push_back({text.substr(at, comma - at)});
         at = comma + 1;
-        if (std::ranges::find(known, name) == known.end())
-            throw InputError({}, "--aov", fmt::format("unknown layer '{}'{}", name, suggestion(name, known)));
-        bool const split = name == "direct" || name == "indirect";
-        if (split && integrator != "path" && integrator != "reference_path")
-            throw InputError(
-                {}, "--aov",
-                fmt::format("the integrator '{}' cannot give the layer '{}'; allowed: path, reference_path", integrator,
-                            name));
-        if (split && adaptive)
-            throw InputError({}, "--aov", fmt::format("the layer '{}' is not to be had with --adaptive", name));
-        names.push_back(name);
     }
+    return requests;
+}
+
+std::vector<std::string> check_layers(std::vector<LayerRequest> const& requests, Scene const& scene,
+                                      RenderPlan const& plan, std::string const& integrator, bool adaptive) {
+    std::string const meant = integrator == "auto" ? choose_integrator(scene, plan).name : integrator;
+    std::vector<std::string> names;
+    std::vector<Diagnostic> wrong;
+    for (LayerRequest const& r : requests) {
+        names.push_back(r.name);
+        std::string message = obstacle(r.name, scene, meant, adaptive);
+        if (!message.empty()) wrong.push_back({r.where, r.key_path, std::move(message)});
+    }
+    if (!wrong.empty()) throw InputError(std::move(wrong));
     return names;
 }
 
@@ -225,12 +271,12 @@ ExtraLayers make_layers(std::vector<std::string> const& names, Scene const& scen
                         std::string const& integrator, RenderSettings const& render, Film const& film,
                         ExrSettings const& settings) {
     ExtraLayers layers;
-    bool const first_hits = std::ranges::any_of(names, [](std::string const& n) {
-        return n != "direct" && n != "indirect" && n != "count" && n != "variance";
-    });
+    bool const first_hits = std::ranges::any_of(
+        names, [](std::string const& n) { return !needs_paths(n) && n != "count" && n != "variance"; });
     if (first_hits) append_first_hits(layers, names, FirstHits(scene, plan, render, film), settings);
     if (has(names, "direct") || has(names, "indirect"))
         append_direct(layers, names, scene, plan, integrator, render, film, settings);
+    if (has(names, "groups")) append_groups(layers, scene, plan, integrator, render, film, settings);
     if (has(names, "count")) {
         std::vector<float> count;
         for (FilmPixel const& p : film.pixels()) count.push_back(static_cast<float>(p.count));

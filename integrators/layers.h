@@ -4,6 +4,7 @@
 //   of the first hit of the picture's own camera rays, the first 256 of a pixel: depth, position, normals, albedo,
 //   material, object; of the film: count, variance
 //   direct: the same paths again, ended after one scattering; indirect: the rest. Their sum is the picture.
+//   groups: the same paths again, what they find told apart by lights (integrators/light_groups.h). Their sum is too.
 #pragma once
 
 #include <array>
@@ -20,8 +21,12 @@ struct LayerEntry {
 };
 std::span<LayerEntry const> layer_entries();
 
-// Names separated by commas. Throws InputError: unknown name, or one that the integrator cannot give.
-std::vector<std::string> parse_layers(std::string const& text, std::string const& integrator, bool adaptive);
+// Names separated by commas, as on the command line.
+std::vector<LayerRequest> parse_layers(std::string const& text);
+// The names of what was asked for. Throws InputError with all that is wrong: unknown names, and what this integrator
+// ("auto": the one it stands for), adaptive sampling or the scene cannot give.
+std::vector<std::string> check_layers(std::vector<LayerRequest> const& requests, Scene const& scene,
+                                      RenderPlan const& plan, std::string const& integrator, bool adaptive);
 
 // What is written beside the film, in the output space and at the exposure of `settings`. Samples of `render` are those
 // that made the film.

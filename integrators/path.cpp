@@ -63,6 +63,7 @@ struct Arrival {
 struct Unshadowed {
     Radiance radiance;
     Ray shadow_ray;
+    int light;
 };
 
 struct NotCarried {};
@@ -166,7 +167,7 @@ class Path final : public Integrator {
         Flight flight(Scattering ? path.sampler.next() : 0);
         if constexpr (Scattering) walk.afloat.reset();
         for (int passed = 0; travel_once(scene, path, walk, flight); ++passed) {
-            if (walk.hit.shape->light >= 0) path.radiance += from_emitter(scene, path, walk);
+            if (walk.hit.shape->light >= 0) path.bring(walk.hit.shape->light, from_emitter(scene, path, walk));
             walk.arrival.density.reset();  // shadow rays end here: no light sample gets further
             if (passed == longest_path) return path.complete = false;
             ClosestQuery query{&path.ray, &walk.hit};
@@ -188,7 +189,10 @@ class Path final : public Integrator {
         });
         scene.accelerator->occluded(std::span(queries).first(count), statistics);
         for (std::size_t k = 0; k < count; ++k)
-            if (!queries[k].occluded) paths[owner[k]].radiance += walks[owner[k]].direct->radiance;
+            if (!queries[k].occluded) {
+                Unshadowed const& direct = *walks[owner[k]].direct;
+                paths[owner[k]].bring(direct.light, direct.radiance);
+            }
     }
 
     // mean(next.reach) + mean(state.reach) p_light / p_hero.
@@ -216,10 +220,10 @@ class Path final : public Integrator {
             return bounce < max_bounces_;
         }
         if (!walk.has_hit) {
-            if (environment_) path.radiance += from_environment(scene, path, walk);
+            if (environment_) bring_environment(scene, path, walk);
             return false;
         }
-        if (walk.hit.shape->light >= 0) path.radiance += from_emitter(scene, path, walk);
+        if (walk.hit.shape->light >= 0) path.bring(walk.hit.shape->light, from_emitter(scene, path, walk));
         if (bounce >= max_bounces_) {
             path.complete = max_bounces_ < longest_path;
             return false;
@@ -232,16 +236,14 @@ class Path final : public Integrator {
         return true;
     }
 
-    Radiance from_environment(Scene const& scene, CameraPath const& path, Walk const& walk) const {
-        Radiance L;
+    void bring_environment(Scene const& scene, CameraPath& path, Walk const& walk) const {
         Direction const wi = path.ray.direction;
         for (int e : scene.lights.environments()) {
             Light const& light = scene.lights.light(e);
             float const p =
                 walk.arrival.density ? choice_density(walk.arrival, e) * light.arriving_density(wi).value : 0;
-            L += walk.state.weight * light.arriving(wi, path.wavelengths) * (1 / mixture(walk, p));
+            path.bring(e, walk.state.weight * light.arriving(wi, path.wavelengths) * (1 / mixture(walk, p)));
         }
-        return L;
     }
 
     Radiance from_emitter(Scene const& scene, CameraPath const& path, Walk const& walk) const {
@@ -288,31 +290,31 @@ class Path final : public Integrator {
             if (requests[k].sample) {
                 CameraPath const& path = paths[asking[k].walk];
                 if (walks[asking[k].walk].is_afloat())
-                    weigh_afloat(*requests[k].sample, asking[k].choice.probability, path, walks[asking[k].walk]);
+                    weigh_afloat(*requests[k].sample, asking[k].choice, path, walks[asking[k].walk]);
                 else
-                    weigh(scene, *requests[k].sample, asking[k].choice.probability, path.wavelengths,
-                          walks[asking[k].walk]);
+                    weigh(scene, *requests[k].sample, asking[k].choice, path.wavelengths, walks[asking[k].walk]);
             }
     }
 
     // The same of a light sample that is scattered in a medium.
-    static void weigh_afloat([[maybe_unused]] LightSample const& light, [[maybe_unused]] float choice_probability,
+    static void weigh_afloat([[maybe_unused]] LightSample const& light,
+                             [[maybe_unused]] LightSelector::Choice const& choice,
                              [[maybe_unused]] CameraPath const& path, [[maybe_unused]] Walk& walk) {
         if constexpr (Scattering) {
             Medium const& medium = walk.in.medium();
             float const phase = HenyeyGreenstein(medium.asymmetry, path.ray.direction).density(light.wi).value;
-            Lanes competitors(choice_probability);
+            Lanes competitors(choice.probability);
             if (light.density)
                 competitors = passing_probability(medium, light.distance, path.wavelengths) * phase +
-                              Lanes(choice_probability * light.density->value);
+                              Lanes(choice.probability * light.density->value);
             Throughput const seen = walk.state.weight * medium.transmittance(light.distance, path.wavelengths);
             walk.direct.emplace(seen * light.radiance * (phase / float(mean(walk.state.reach * competitors))),
-                                shadow_ray(walk.place(), light.wi, light.distance));
+                                shadow_ray(walk.place(), light.wi, light.distance), choice.light);
         }
     }
 
     // What a light sample brings along the path if nothing stands between.
-    static void weigh(Scene const& scene, LightSample const& light, float choice_probability,
+    static void weigh(Scene const& scene, LightSample const& light, LightSelector::Choice const& choice,
                       Wavelengths const& wavelengths, Walk& walk) {
         Interaction const& here = *walk.here;
         Direction const wi = here.frame.to_local(light.wi);
@@ -326,15 +328,15 @@ class Path final : public Integrator {
             if constexpr (Scattering)
                 found *= passing_probability(behind(scene, walk.hit, here, wi, walk.in).medium(), light.distance,
                                              wavelengths);
-            competitors = Lanes(found.lane + choice_probability * light.density->value);
+            competitors = Lanes(found.lane + choice.probability * light.density->value);
         } else
-            competitors = Lanes(choice_probability);
+            competitors = Lanes(choice.probability);
         float const divisor = Dispersive ? float(mean(walk.state.reach * competitors)) : competitors[0];
         Lanes scattered(f.value.lane * (cosine / divisor));
         if constexpr (Media)
             scattered *= behind(scene, walk.hit, here, wi, walk.in).medium().transmittance(light.distance, wavelengths);
         walk.direct.emplace(walk.state.weight * scattered * light.radiance,
-                            spawn_shadow_ray(walk.hit.point, light.wi, light.distance));
+                            spawn_shadow_ray(walk.hit.point, light.wi, light.distance), choice.light);
     }
 
     // Choose where the path goes on; false if it ends here.

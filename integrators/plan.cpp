@@ -203,6 +203,12 @@ RenderPlan make_plan(Scene const& scene) {
                                                                 scene.film.band_range.width() / scene.film.band_count)
                                                   : "none asked for: wavelengths are drawn for the observer alone");
 
+    std::string layers;
+    for (LayerRequest const& r : scene.film.aovs) layers += (layers.empty() ? "" : ", ") + r.name;
+    decide("aovs", !layers.empty(),
+           layers.empty() ? "film.aovs names none: nothing is computed beside the picture"
+                          : layers + ": found after the picture, from its own paths");
+
     plan.max_bounces = scene.render.max_bounces;
     decide("bounce limit", plan.max_bounces.has_value(),
            plan.max_bounces ? fmt::format("{} (the file's wish: light beyond is left out)", *plan.max_bounces)

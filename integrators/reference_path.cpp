@@ -24,7 +24,6 @@ class ReferencePath final : public Integrator {
         Ray ray = path.ray;
         Wavelengths const& wavelengths = path.wavelengths;
         Sampler& sampler = path.sampler;
-        Radiance& L = path.radiance;
         PathState state;
         Surroundings in = camera_in_ ? *camera_in_ : surroundings_at(scene, ray.origin);
         for (int bounce = 0, passed = 0;; ++bounce) {
@@ -34,7 +33,9 @@ class ReferencePath final : public Integrator {
             std::optional<Afloat> afloat;
             float passing = 1;  // light samples do not compete here
             while (fly(scene, hit ? &*hit : nullptr, wavelengths, flight, ray, in, state, passing, afloat)) {
-                L += state.weight * emitted_at(scene, *hit, ray, wavelengths) * (1 / mean(state.reach));
+                if (hit->shape->light >= 0)
+                    path.bring(hit->shape->light,
+                               state.weight * emitted_at(scene, *hit, ray, wavelengths) * (1 / mean(state.reach)));
                 if (++passed > longest_path) return void(path.complete = false);
                 hit = scene.accelerator->closest(ray, statistics);
             }
@@ -47,10 +48,12 @@ class ReferencePath final : public Integrator {
             if (afloat) return void(path.complete = max_bounces_ < longest_path);
             if (!hit) {
                 for (int e : scene.lights.environments())
-                    L += state.weight * scene.lights.light(e).arriving(ray.direction, wavelengths) * per_reach;
+                    path.bring(e,
+                               state.weight * scene.lights.light(e).arriving(ray.direction, wavelengths) * per_reach);
                 return;
             }
-            L += state.weight * emitted_at(scene, *hit, ray, wavelengths) * per_reach;
+            if (hit->shape->light >= 0)
+                path.bring(hit->shape->light, state.weight * emitted_at(scene, *hit, ray, wavelengths) * per_reach);
             if (bounce >= max_bounces_) {
                 path.complete = max_bounces_ < longest_path;
                 return;
@@ -60,7 +63,8 @@ class ReferencePath final : public Integrator {
             describe_meeting(hit->point, -ray.direction, chances.y);
             Interaction const here(scene, *hit, -ray.direction, wavelengths, &in);
             for (std::size_t i = 0; i < scene.lights.size(); ++i)
-                L += dirac_light(scene, static_cast<int>(i), *hit, here, wavelengths, state, in, statistics);
+                path.bring(static_cast<int>(i),
+                           dirac_light(scene, static_cast<int>(i), *hit, here, wavelengths, state, in, statistics));
             auto const sample = here.bsdf.sample(here.wo, {sampler.next(), sampler.next2()});
             if (!sample) return;
             Direction const wi = here.frame.to_world(sample->wi);
@@ -78,9 +82,9 @@ class ReferencePath final : public Integrator {
                                CameraPath& path, Ray& ray, PathState& state, RayStatistics& statistics) {
         HenyeyGreenstein const phase(medium.asymmetry, ray.direction);
         for (std::size_t i = 0; i < scene.lights.size(); ++i)
-            path.radiance +=
-                dirac_light(scene, static_cast<int>(i), here.position, phase, path.wavelengths, medium, statistics) *
-                state.weight * (1 / mean(state.reach));
+            path.bring(static_cast<int>(i), dirac_light(scene, static_cast<int>(i), here.position, phase,
+                                                        path.wavelengths, medium, statistics) *
+                                                state.weight * (1 / mean(state.reach)));
         ray = {here.position, phase.sample(path.sampler.next2())};
         return bounce < 3 || survives<true>(state, path.sampler.next());
     }

@@ -31,17 +31,20 @@ struct ThreadStatistics {
 class Batch {
   public:
     Batch(Scene const& scene, Integrator const& integrator, PathStarter const& starter, Film& film,
-          ThreadStatistics& statistics)
+          LightGroupFilms* groups, ThreadStatistics& statistics)
         : scene_(scene),
           integrator_(integrator),
           splats_(integrator.splats()),
           starter_(starter),
           film_(film),
+          groups_(groups),
+          of_group_(groups ? batch_size * groups->count() : 0),
           statistics_(statistics) {}
 
     void start(int x, int y, std::uint32_t sample) {
         if (count_ == 0) begin_timing();
         origin_[count_] = {x, y};
+        if (groups_) paths_[count_].shares = empty_shares(count_);
         starter_.start(x + film_.place().x0, y + film_.place().y0, sample, paths_[count_++]);
         if (count_ == batch_size) finish();
     }
@@ -62,15 +65,27 @@ class Batch {
         statistics_.rays.timed = statistics_.batches++ % batches_per_timing == batches_per_timing / 2;
         if (statistics_.rays.timed) started_ = processor_ticks();
     }
+    LightShares empty_shares(std::size_t path) {
+        Radiance* const first = of_group_.data() + path * groups_->count();
+        std::fill_n(first, groups_->count(), Radiance());
+        return groups_->shares(first);
+    }
+    static std::optional<Rejection> why_rejected(CameraPath const& path) {
+        if (!path.complete) return Rejection::path_too_long;
+        if (!is_finite(path.radiance)) return Rejection::not_finite;
+        if (is_negative(path.radiance)) return Rejection::negative;
+        return std::nullopt;
+    }
     void deposit(Pixel p, CameraPath const& path) {
-        if (!path.complete)
-            film_.reject(p.x, p.y, Rejection::path_too_long);
-        else if (!is_finite(path.radiance))
-            film_.reject(p.x, p.y, Rejection::not_finite);
-        else if (is_negative(path.radiance))
-            film_.reject(p.x, p.y, Rejection::negative);
+        auto const cause = why_rejected(path);
+        if (cause)
+            film_.reject(p.x, p.y, *cause);
         else
             film_.add(p.x, p.y, path.wavelengths, path.radiance);
+        if (groups_ && cause)
+            groups_->reject(p.x, p.y, *cause);
+        else if (groups_)
+            groups_->add(p.x, p.y, path.wavelengths, path.shares);
         if (!splats_ || !path.complete) return;
         film_.count_light_path();
         for (Splat const& splat : path.splats)
@@ -84,6 +99,8 @@ class Batch {
     bool splats_;
     PathStarter const& starter_;
     Film& film_;
+    LightGroupFilms* groups_;
+    std::vector<Radiance> of_group_;  // [path][group]
     ThreadStatistics& statistics_;
     std::array<CameraPath, batch_size> paths_;
     std::array<Pixel, batch_size> origin_;
@@ -109,7 +126,7 @@ class Loop {
 
     // What every pixel of a tile lacks of `goal` samples, or of its own goal.
     void render_tile(int tile, std::uint32_t goal) {
-        Batch batch(scene_, integrator_, starter_, film_, statistics_.local());
+        Batch batch(scene_, integrator_, starter_, film_, settings_.groups, statistics_.local());
         int const x0 = tile % columns_ * tile_size, y0 = tile / columns_ * tile_size;
         for (int y = y0; y < std::min(y0 + tile_size, film_.height()); ++y)
             for (int x = x0; x < std::min(x0 + tile_size, film_.width()); ++x)

@@ -11,6 +11,7 @@
 
 #include "film/error_target.h"
 #include "integrators/integrator.h"
+#include "integrators/light_groups.h"
 #include "integrators/plan.h"
 
 namespace iride {
@@ -29,6 +30,7 @@ struct RenderSettings {
     std::function<void(int done_spp, double share)> on_progress = {};  // share of the whole work, 0 .. 1
     std::function<void()> on_pass = {};  // after each pass: the film is consistent then, and may be saved
     double pass_seconds = std::numeric_limits<double>::infinity();  // passes are meant to be no longer than this
+    LightGroupFilms* groups = nullptr;  // filled beside the film, if the integrator tells lights apart
 };
 
 struct RenderReport {

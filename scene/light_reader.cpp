@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <cstring>
 
@@ -142,6 +143,17 @@ constexpr std::array<LightEntry, 4> table{{
 
 std::span<LightEntry const> light_entries() { return table; }
 
+std::string read_light_group(Fields& f) {
+    constexpr std::size_t longest = 64;
+    std::string const group = f.text("group").value_or("");
+    bool const is_good =
+        std::ranges::all_of(group, [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; });
+    if (!f.find("group") || (is_good && !group.empty() && group.size() <= longest)) return group;
+    f.error_at("group", fmt::format("found '{}', allowed: 1 .. {} letters, digits, '_' and '-', as in a channel's name",
+                                    group, longest));
+    return {};
+}
+
 int add_light(SceneBuilder& b, std::unique_ptr<Light> light, std::string const& type, SpectralFunction const& spectrum,
               double luminance) {
     b.lights.push_back(std::move(light));
@@ -157,7 +169,11 @@ void read_lights(SceneBuilder& b, JsonValue const& value, std::string const& pat
         Fields f(b.context, (*array)[i], fmt::format("{}[{}]", path, i));
         LightEntry const* const entry = find_entry(f, light_entries());
         if (!entry) continue;
+        std::size_t const first = b.scene.light_descriptions.size();
+        std::string const group = read_light_group(f);
         entry->reader(b, f);
+        for (std::size_t k = first; k < b.scene.light_descriptions.size(); ++k)
+            b.scene.light_descriptions[k].group = group;
         f.finish();
     }
 }

@@ -40,6 +40,24 @@ std::optional<WavelengthRange> read_range(Fields& f, std::string const& key) {
     return std::nullopt;
 }
 
+// Names alone: what layers there are, the integrators know.
+std::vector<LayerRequest> read_aovs(SceneBuilder& b, Fields& f) {
+    std::vector<LayerRequest> aovs;
+    JsonValue const* const value = f.find("aovs");
+    if (!value) return aovs;
+    JsonArray const* const array = value->as<JsonArray>();
+    if (!array) f.error_at("aovs", "found " + value->described() + ", but an array of names is wanted");
+    for (std::size_t i = 0; array && i < array->size(); ++i) {
+        JsonValue const& item = (*array)[i];
+        std::string const path = fmt::format("{}[{}]", f.path("aovs"), i);
+        if (std::string const* const name = item.as<std::string>())
+            aovs.push_back({*name, {b.context.file.string(), item.line, item.column}, path});
+        else
+            b.context.error(item, path, "found " + item.described() + ", but a name is wanted");
+    }
+    return aovs;
+}
+
 void read_film(SceneBuilder& b, Fields& top) {
     JsonValue const* const value = top.find("film");
     if (!value) return;
@@ -65,6 +83,7 @@ void read_film(SceneBuilder& b, Fields& top) {
     film.exposure = read_exposure(b, f);
     film.white = read_white(b, f);
     film.half = f.boolean("half").value_or(false);
+    film.aovs = read_aovs(b, f);
     if (JsonValue const* const bands = f.find("bands")) {
         Fields g(b.context, *bands, "film.bands");
         g.require("count");

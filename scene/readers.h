@@ -109,7 +109,9 @@ struct LightEntry {
 };
 std::span<LightEntry const> light_entries();
 void read_lights(SceneBuilder& builder, JsonValue const& value, std::string const& path);
-// Add a light with its description; its index.
+// The key "group" of a light or an emission, empty without one.
+std::string read_light_group(Fields& fields);
+// Add a light with its description; its index in both lists.
 int add_light(SceneBuilder& builder, std::unique_ptr<Light> light, std::string const& type,
               SpectralFunction const& spectrum, double luminance);
 

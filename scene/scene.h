@@ -21,6 +21,13 @@ namespace iride {
 
 enum class FilterKind { box, triangle, gaussian };
 
+// A layer wanted beside the picture; what names there are is the integrators' matter (integrators/layers.h).
+struct LayerRequest {
+    std::string name;
+    SourceLocation where{};
+    std::string key_path = "--aov";
+};
+
 struct FilmSettings {
     int width = 256, height = 256;
     FilterKind filter = FilterKind::box;
@@ -30,6 +37,7 @@ struct FilmSettings {
     int band_count = 0;
     WavelengthRange band_range = visible_range;
     bool half = false;
+    std::vector<LayerRequest> aovs{};
 };
 
 struct RenderDefaults {
@@ -59,6 +67,7 @@ struct LightDescription {
     SpectralFunction spectrum;
     WavelengthRange nonzero;  // outside it the light is dark
     double luminance;
+    std::string group{};  // of lights that are to be told apart in the picture; empty: none
 };
 
 struct Scene {

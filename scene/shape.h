@@ -4,6 +4,7 @@
 
 #include <array>
 #include <memory>
+#include <string>
 #include <variant>
 
 #include "materials/relief.h"
@@ -58,6 +59,8 @@ struct Shape {
     bool parametrised = false;         // uv, derivatives and tangent
     Relief const* relief = nullptr;    // turns the shading normal
     ScalarMap const* alpha = nullptr;  // the share of rays that meet the surface, the others pass
+
+    std::string name = {};  // the scene file's; empty: none
 };
 
 }  // namespace iride

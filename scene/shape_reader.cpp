@@ -192,6 +192,7 @@ struct EmissionRead {
     SpectralFunction radiance;
     bool two_sided;
     EmissionProfile profile;
+    std::string group;
 };
 
 EmissionProfile read_profile(SceneBuilder& b, Fields& e) {
@@ -215,8 +216,9 @@ std::optional<EmissionRead> read_emission(SceneBuilder& b, Fields& f, bool in_ob
     auto const radiance = read_spectrum(b, e, "radiance", emission_kind);
     bool const two_sided = e.boolean("two_sided").value_or(false);
     EmissionProfile const profile = read_profile(b, e);
+    std::string const group = read_light_group(e);
     e.finish();
-    return radiance ? std::optional(EmissionRead{*radiance, two_sided, profile}) : std::nullopt;
+    return radiance ? std::optional(EmissionRead{*radiance, two_sided, profile, group}) : std::nullopt;
 }
 
 // The material of that number, if any was read.
@@ -249,12 +251,13 @@ void read_shape(SceneBuilder& b, JsonValue const& value, std::string const& path
     int const material = read_material_under(b, f, "material");
     bool const flipped = f.boolean("flip").value_or(false);
     auto const emission = read_emission(b, f, in_object);
+    std::string const name = f.text("name").value_or("");
     check_uv(b, f, material, geometries);
     if (emission && material_at(b, material) && material_at(b, material)->alpha)
         f.error_at("emission", "a lamp has no holes: its material has 'alpha'");
     for (ShapeGeometry& g : geometries) {
         if (moved) apply_transform(b, f, transform, g);
-        Shape shape{std::move(g), material, -1, flipped};
+        Shape shape{.geometry = std::move(g), .material = material, .flipped = flipped, .name = name};
         if (emission && !(surface_area(shape.geometry) > 0)) {
             f.error_at("emission", "this emitter has no area");
         } else if (emission) {
@@ -262,6 +265,7 @@ void read_shape(SceneBuilder& b, JsonValue const& value, std::string const& path
             Emitter emitter{Emission(emission->radiance, b.scene.grid), emission->two_sided, emission->profile};
             shape.light = add_light(b, make_area_light(shape, {std::move(emitter), luminance}), entry->name,
                                     emission->radiance, luminance);
+            b.scene.light_descriptions[static_cast<std::size_t>(shape.light)].group = emission->group;
         }
         shapes.push_back(std::move(shape));
     }
