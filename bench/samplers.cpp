@@ -13,7 +13,7 @@ namespace {
 
 using namespace iride;
 
-constexpr int side = 64, reference_spp = 16384, seeds = 5;
+constexpr int side = 48, reference_spp = 4096, seeds = 3;
 
 struct Timed {
     std::vector<double> Y;
