@@ -28,7 +28,7 @@ Radiance DirectLight::at(DirectVertex const& v, Sampler& sampler, RayStatistics&
 
 Radiance DirectLight::by_lamps(DirectVertex const& v, Sampler& sampler, RayStatistics& statistics) const {
     if (settings_.selection) {
-        auto const choice = selector_.choose(receiver(v.scene, v.hit, v.here), sampler.next());
+        auto const choice = selector_.choose(receiver(v.scene, v.hit, v.here.geometric_normal), sampler.next());
         Sample2 const u = sampler.next2();
         return choice.light >= 0 ? by_lamp(v, choice.light, choice.probability, u, statistics) : Radiance{};
     }
@@ -77,7 +77,7 @@ Radiance DirectLight::by_bsdf(DirectVertex const& v, Sampler& sampler, RayStatis
     if (!v.here.is_consistent(wi, sample->wi)) return {};
     float const reach = mean(v.state.reach * sample->reach);
     float const per_density = mean(v.state.reach) / sample->density->value;
-    LightReceiver const from = receiver(v.scene, v.hit, v.here);
+    LightReceiver const from = receiver(v.scene, v.hit, v.here.geometric_normal);
     auto const divisor = [&](int index, Hit const* hit, bool passed) {
         if (settings_.strategy != DirectStrategy::mis || passed) return reach;
         Light const& light = v.scene.lights.light(index);

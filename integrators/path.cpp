@@ -47,10 +47,6 @@ struct VertexNumbers {
     Sample2 light, direction;
     Sample2 chances;  // x: roulette, y: which part of a mixture
 };
-VertexNumbers numbers_of_vertex(Sampler& sampler, int vertex) {
-    sampler.begin_vertex(static_cast<std::uint32_t>(vertex));
-    return {sampler.next2(), sampler.next2(), sampler.next2(), sampler.next2()};
-}
 
 // How the ray at hand was chosen: what light sampling from there would have had to compete with.
 struct Arrival {
@@ -59,11 +55,34 @@ struct Arrival {
     float mean_reach_before = 1;
 };
 
-// What a light sample brings if nothing stands between.
-struct Unshadowed {
-    Radiance radiance;
-    Ray shadow_ray;
-    int light;
+// What the lamps bring to a batch if nothing stands between, and the rays that tell.
+struct Shadows {
+    std::array<ShadowQuery, batch_size> query;
+    std::array<Radiance, batch_size> radiance;
+    std::array<CameraPath*, batch_size> path;
+    std::array<int, batch_size> light;
+    std::size_t count = 0;
+
+    void add(CameraPath& to, int from, Radiance const& unshadowed, Ray const& ray) {
+        query[count].ray = ray;
+        radiance[count] = unshadowed;
+        light[count] = from;
+        path[count++] = &to;
+    }
+};
+
+// A lamp that is asked for a sample.
+struct Asking {
+    std::size_t walk;
+    LightSelector::Choice choice;
+};
+
+// What the stages leave to one another; made once for a batch.
+struct Exchange {
+    std::array<ClosestQuery, batch_size> queries;
+    std::array<Asking, batch_size> asking;
+    std::array<LightRequest, batch_size> requests;
+    Shadows shadows;
 };
 
 struct NotCarried {};
@@ -75,10 +94,11 @@ struct Walk {
     Arrival arrival;
     RayCone cone;  // 0 wide unless the plan carries it
     VertexNumbers numbers;
-    bool has_hit, goes_on;
+    bool has_hit;
     Hit hit;
-    std::optional<Interaction> here;
-    std::optional<Unshadowed> direct;
+    LightSample const* light;  // that of the lamp asked; null: none
+    float light_probability;   // with which that lamp was chosen
+    int light_number;
     [[no_unique_address]] std::conditional_t<Media, Surroundings, NotCarried> in;
     [[no_unique_address]] std::conditional_t<Scattering, std::optional<Afloat>, NotCarried> afloat;
 
@@ -108,6 +128,7 @@ class Path final : public Integrator {
 
     void follow(Scene const& scene, std::span<CameraPath> paths, RayStatistics& statistics) const override {
         Walks walks;
+        Exchange between;
         Alive alive(paths.size());
         if constexpr (Media)
             for (std::size_t i = 0; i < paths.size(); ++i)
@@ -115,19 +136,19 @@ class Path final : public Integrator {
         if (ray_cones_)
             for (std::size_t i = 0; i < paths.size(); ++i) walks[i].cone = paths[i].cone;
         for (int bounce = 0; !alive.none(); ++bounce) {
-            alive.for_each([&](std::size_t i) { walks[i].numbers = numbers_of_vertex(paths[i].sampler, bounce); });
-            find_hits(scene, paths, walks, alive, bounce, statistics);
+            alive.for_each([&](std::size_t i) {
+                paths[i].sampler.begin_vertex(static_cast<std::uint32_t>(bounce), walks[i].numbers);
+            });
+            find_hits(scene, paths, walks, alive, bounce, between.queries, statistics);
             if constexpr (Media)
                 alive.keep_if([&](std::size_t i) { return travel_on(scene, paths[i], walks[i], statistics); });
             alive.keep_if([&](std::size_t i) { return arrive(scene, paths[i], walks[i], bounce); });
-            if (light_sampling_) sample_lights(scene, paths, walks, alive);
-            alive.for_each([&](std::size_t i) { walks[i].goes_on = scatter(scene, paths[i], walks[i]); });
-            if (light_sampling_) add_direct_light(scene, paths, walks, alive, statistics);
+            if (light_sampling_) ask_lights(scene, paths, walks, alive, between);
             alive.keep_if([&](std::size_t i) {
-                Walk& walk = walks[i];
-                return walk.goes_on &&
-                       (bounce < roulette_from || survives<Dispersive>(walk.state, walk.numbers.chances.x));
+                return scatter(scene, paths[i], walks[i], between.shadows) &&
+                       (bounce < roulette_from || survives<Dispersive>(walks[i].state, walks[i].numbers.chances.x));
             });
+            if (light_sampling_) add_direct_light(scene, between.shadows, statistics);
         }
     }
 
@@ -137,10 +158,14 @@ class Path final : public Integrator {
     using Walks = std::array<Walk, batch_size>;
 
     static void find_hits(Scene const& scene, std::span<CameraPath const> paths, Walks& walks, Alive const& alive,
-                          int bounce, RayStatistics& statistics) {
-        std::array<ClosestQuery, batch_size> queries;
+                          int bounce, std::array<ClosestQuery, batch_size>& queries, RayStatistics& statistics) {
         std::size_t count = 0;
-        alive.for_each([&](std::size_t i) { queries[count++] = {&paths[i].ray, &walks[i].hit, walks[i].cone}; });
+        alive.for_each([&](std::size_t i) {
+            ClosestQuery& query = queries[count++];
+            query.ray = &paths[i].ray;
+            query.hit = &walks[i].hit;
+            query.cone = walks[i].cone;
+        });
         // Neighbours leave the camera together; after a scattering each goes its own way.
         auto const coherence = bounce == 0 ? Accelerator::Coherence::close : Accelerator::Coherence::none;
         scene.accelerator->closest(std::span(queries).first(count), coherence, statistics);
@@ -177,22 +202,11 @@ class Path final : public Integrator {
         return true;
     }
 
-    static void add_direct_light(Scene const& scene, std::span<CameraPath> paths, Walks const& walks,
-                                 Alive const& alive, RayStatistics& statistics) {
-        std::array<ShadowQuery, batch_size> queries;
-        std::array<std::size_t, batch_size> owner;
-        std::size_t count = 0;
-        alive.for_each([&](std::size_t i) {
-            if (!walks[i].direct) return;
-            queries[count].ray = walks[i].direct->shadow_ray;
-            owner[count++] = i;
-        });
-        scene.accelerator->occluded(std::span(queries).first(count), statistics);
-        for (std::size_t k = 0; k < count; ++k)
-            if (!queries[k].occluded) {
-                Unshadowed const& direct = *walks[owner[k]].direct;
-                paths[owner[k]].bring(direct.light, direct.radiance);
-            }
+    static void add_direct_light(Scene const& scene, Shadows& shadows, RayStatistics& statistics) {
+        scene.accelerator->occluded(std::span(shadows.query).first(shadows.count), statistics);
+        for (std::size_t k = 0; k < shadows.count; ++k)
+            if (!shadows.query[k].occluded) shadows.path[k]->bring(shadows.light[k], shadows.radiance[k]);
+        shadows.count = 0;
     }
 
     // mean(next.reach) + mean(state.reach) p_light / p_hero.
@@ -207,10 +221,10 @@ class Path final : public Integrator {
         return light_sampling_ ? selector_.probability(arrival.from, light) : 0;
     }
 
-    LightReceiver receiver_of(Scene const& scene, Walk const& walk) const {
-        if (walk.is_afloat()) return {walk.place(), Vector(0, 0, 0)};
-        if (selector_.looks_at_receiver()) return receiver(scene, walk.hit, *walk.here);
-        return {walk.hit.point.position, Vector(0, 0, 0)};
+    LightReceiver receiver_of(Scene const& scene, Direction const& to_viewer, Walk const& walk) const {
+        if (!selector_.looks_at_receiver() || walk.is_afloat()) return {walk.place(), Vector(0, 0, 0)};
+        Direction const& n = walk.hit.point.geometric_normal;
+        return receiver(scene, walk.hit, to_viewer.dot(n) < 0 ? Direction(-n) : n);
     }
 
     // What is emitted where the ray ends, and the surface there; false if the path ends with it.
@@ -228,11 +242,6 @@ class Path final : public Integrator {
             path.complete = max_bounces_ < longest_path;
             return false;
         }
-        describe_meeting(walk.hit.point, -path.ray.direction, walk.numbers.chances.y);
-        if constexpr (Media)
-            walk.here.emplace(scene, walk.hit, -path.ray.direction, path.wavelengths, &walk.in);
-        else
-            walk.here.emplace(scene, walk.hit, -path.ray.direction, path.wavelengths);
         return true;
     }
 
@@ -259,22 +268,19 @@ class Path final : public Integrator {
     }
 
     // Choose a light for each vertex that can use one; ask each light for all its samples at a time.
-    void sample_lights(Scene const& scene, std::span<CameraPath const> paths, Walks& walks, Alive const& alive) const {
-        struct Asking {
-            std::size_t walk;
-            LightSelector::Choice choice;
-        };
-        std::array<Asking, batch_size> all;
+    void ask_lights(Scene const& scene, std::span<CameraPath const> paths, Walks& walks, Alive const& alive,
+                    Exchange& between) const {
         std::size_t count = 0;
         alive.for_each([&](std::size_t i) {
-            walks[i].direct.reset();
-            if (!walks[i].is_afloat() && !walks[i].here->bsdf.has_density()) return;
-            auto const choice = selector_.choose(receiver_of(scene, walks[i]), walks[i].numbers.choices.x);
-            if (choice.light >= 0) all[count++] = {i, choice};
+            walks[i].light = nullptr;
+            if (!walks[i].is_afloat() && !scene.material(walks[i].hit.shape->material).traits.has_density) return;
+            auto const choice =
+                selector_.choose(receiver_of(scene, -paths[i].ray.direction, walks[i]), walks[i].numbers.choices.x);
+            if (choice.light >= 0) between.asking[count++] = {i, choice};
         });
-        std::span<Asking> const asking(all.data(), count);
+        std::span<Asking> const asking(between.asking.data(), count);
         if (scene.lights.size() > 1) std::ranges::sort(asking, {}, [](Asking const& a) { return a.choice.light; });
-        std::array<LightRequest, batch_size> requests;
+        auto& requests = between.requests;
         for (std::size_t k = 0; k < count; ++k) {
             std::size_t const i = asking[k].walk;
             requests[k].from = walks[i].place();
@@ -286,63 +292,68 @@ class Path final : public Integrator {
             for (last = first + 1; last < count && asking[last].choice.light == light;) ++last;
             scene.lights.light(light).answer(std::span(requests).subspan(first, last - first));
         }
-        for (std::size_t k = 0; k < count; ++k)
-            if (requests[k].sample) {
-                CameraPath const& path = paths[asking[k].walk];
-                if (walks[asking[k].walk].is_afloat())
-                    weigh_afloat(*requests[k].sample, asking[k].choice, path, walks[asking[k].walk]);
-                else
-                    weigh(scene, *requests[k].sample, asking[k].choice, path.wavelengths, walks[asking[k].walk]);
-            }
-    }
-
-    // The same of a light sample that is scattered in a medium.
-    static void weigh_afloat([[maybe_unused]] LightSample const& light,
-                             [[maybe_unused]] LightSelector::Choice const& choice,
-                             [[maybe_unused]] CameraPath const& path, [[maybe_unused]] Walk& walk) {
-        if constexpr (Scattering) {
-            Medium const& medium = walk.in.medium();
-            float const phase = HenyeyGreenstein(medium.asymmetry, path.ray.direction).density(light.wi).value;
-            Lanes competitors(choice.probability);
-            if (light.density)
-                competitors = passing_probability(medium, light.distance, path.wavelengths) * phase +
-                              Lanes(choice.probability * light.density->value);
-            Throughput const seen = walk.state.weight * medium.transmittance(light.distance, path.wavelengths);
-            walk.direct.emplace(seen * light.radiance * (phase / float(mean(walk.state.reach * competitors))),
-                                shadow_ray(walk.place(), light.wi, light.distance), choice.light);
+        for (std::size_t k = 0; k < count; ++k) {
+            Walk& walk = walks[asking[k].walk];
+            walk.light = requests[k].sample ? &*requests[k].sample : nullptr;
+            walk.light_probability = asking[k].choice.probability;
+            walk.light_number = asking[k].choice.light;
         }
     }
 
     // What a light sample brings along the path if nothing stands between.
-    static void weigh(Scene const& scene, LightSample const& light, LightSelector::Choice const& choice,
-                      Wavelengths const& wavelengths, Walk& walk) {
-        Interaction const& here = *walk.here;
+    static void weigh(Scene const& scene, Interaction const& here, CameraPath& path, Walk const& walk,
+                      Shadows& shadows) {
+        LightSample const& light = *walk.light;
         Direction const wi = here.frame.to_local(light.wi);
         BsdfEvaluation const f = here.bsdf.evaluate(here.wo, wi);
         if (is_black(f.value) || !here.is_consistent(light.wi, wi)) return;
         // In units of a steradian: a density for lights of extent, the Dirac's own measure for the others.
         float const cosine = std::abs(wi.z());
-        Lanes competitors;
+        Lanes competitors(walk.light_probability);
         if (light.density) {
             Lanes found(f.density.lane);
             if constexpr (Scattering)
                 found *= passing_probability(behind(scene, walk.hit, here, wi, walk.in).medium(), light.distance,
-                                             wavelengths);
-            competitors = Lanes(found.lane + choice.probability * light.density->value);
-        } else
-            competitors = Lanes(choice.probability);
+                                             path.wavelengths);
+            competitors = Lanes(found.lane + walk.light_probability * light.density->value);
+        }
         float const divisor = Dispersive ? float(mean(walk.state.reach * competitors)) : competitors[0];
         Lanes scattered(f.value.lane * (cosine / divisor));
         if constexpr (Media)
-            scattered *= behind(scene, walk.hit, here, wi, walk.in).medium().transmittance(light.distance, wavelengths);
-        walk.direct.emplace(walk.state.weight * scattered * light.radiance,
-                            spawn_shadow_ray(walk.hit.point, light.wi, light.distance), choice.light);
+            scattered *=
+                behind(scene, walk.hit, here, wi, walk.in).medium().transmittance(light.distance, path.wavelengths);
+        shadows.add(path, walk.light_number, walk.state.weight * scattered * light.radiance,
+                    spawn_shadow_ray(walk.hit.point, light.wi, light.distance));
     }
 
-    // Choose where the path goes on; false if it ends here.
-    bool scatter(Scene const& scene, CameraPath& path, Walk& walk) const {
-        if (walk.is_afloat()) return scatter_afloat(path, walk);
-        Interaction const& here = *walk.here;
+    // The same of a light sample that is scattered in a medium.
+    static void weigh_afloat([[maybe_unused]] CameraPath& path, [[maybe_unused]] Walk const& walk,
+                             [[maybe_unused]] Shadows& shadows) {
+        if constexpr (Scattering) {
+            LightSample const& light = *walk.light;
+            Medium const& medium = walk.in.medium();
+            float const phase = HenyeyGreenstein(medium.asymmetry, path.ray.direction).density(light.wi).value;
+            Lanes competitors(walk.light_probability);
+            if (light.density)
+                competitors = passing_probability(medium, light.distance, path.wavelengths) * phase +
+                              Lanes(walk.light_probability * light.density->value);
+            Throughput const seen = walk.state.weight * medium.transmittance(light.distance, path.wavelengths);
+            shadows.add(path, walk.light_number,
+                        seen * light.radiance * (phase / float(mean(walk.state.reach * competitors))),
+                        shadow_ray(walk.place(), light.wi, light.distance));
+        }
+    }
+
+    // Make the surface's closure, weigh the lamp's sample by it and choose where the path goes on; false if it ends
+    // here.
+    bool scatter(Scene const& scene, CameraPath& path, Walk& walk, Shadows& shadows) const {
+        if (walk.is_afloat()) return scatter_afloat(path, walk, shadows);
+        Direction const to_viewer = -path.ray.direction;
+        describe_meeting(walk.hit.point, to_viewer, walk.numbers.chances.y);
+        Surroundings const* in = nullptr;
+        if constexpr (Media) in = &walk.in;
+        Interaction const here(scene, walk.hit, to_viewer, path.wavelengths, in);
+        if (light_sampling_ && walk.light) weigh(scene, here, path, walk, shadows);
         auto const sample = here.bsdf.sample(here.wo, {walk.numbers.choices.y, walk.numbers.direction});
         if (!sample) return false;
         Direction const wi = here.frame.to_world(sample->wi);
@@ -353,7 +364,7 @@ class Path final : public Integrator {
         }
         walk.state.weight *= sample->weight;
         walk.arrival.density = sample->density;
-        walk.arrival.from = receiver_of(scene, walk);
+        walk.arrival.from = receiver_of(scene, to_viewer, walk);
         if (ray_cones_)
             walk.cone = walk.cone.scattered(walk.hit.distance, sample->density ? &*sample->density : nullptr);
         path.ray = spawn_ray(walk.hit.point, wi);
@@ -362,8 +373,10 @@ class Path final : public Integrator {
     }
 
     // In a medium: always on, and in all lanes alike.
-    bool scatter_afloat([[maybe_unused]] CameraPath& path, [[maybe_unused]] Walk& walk) const {
+    bool scatter_afloat([[maybe_unused]] CameraPath& path, [[maybe_unused]] Walk& walk,
+                        [[maybe_unused]] Shadows& shadows) const {
         if constexpr (Scattering) {
+            if (light_sampling_ && walk.light) weigh_afloat(path, walk, shadows);
             HenyeyGreenstein const phase(walk.in.medium().asymmetry, path.ray.direction);
             Direction const wi = phase.sample(walk.numbers.direction);
             walk.arrival = {phase.density(wi), {walk.place(), Vector(0, 0, 0)}, mean(walk.state.reach)};

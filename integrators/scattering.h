@@ -74,10 +74,11 @@ inline Radiance emitted_at(Scene const& scene, Hit const& hit, Ray const& ray, W
     return scene.lights.light(hit.shape->light).emitted(hit.point, -ray.direction, wavelengths);
 }
 
-// What lights are chosen for at a vertex: surfaces alike on both sides scatter light to the side it comes from.
-inline LightReceiver receiver(Scene const& scene, Hit const& hit, Interaction const& here) {
+// What lights are chosen for at a vertex, given the geometric normal on the viewer's side: surfaces alike on both sides
+// scatter light to the side it comes from.
+inline LightReceiver receiver(Scene const& scene, Hit const& hit, Direction const& facing) {
     bool const one_side = scene.material(hit.shape->material).traits.two_sided;
-    return {hit.point.position, one_side ? here.geometric_normal : Direction(0, 0, 0)};
+    return {hit.point.position, one_side ? facing : Direction(0, 0, 0)};
 }
 
 // The same of what ends the ray, lights at infinity where nothing does.

@@ -13,11 +13,12 @@ namespace iride {
 
 // For a viewer before the surface, wo.g >= 0.
 inline Direction bent_to_viewer(Direction const& n, Direction const& g, Direction const& wo) {
+    if (n == g) return n;
     constexpr float least = 0.01f;  // cosine: nothing of a mirror image is seen nearer to the surface
     float const cosine = wo.dot(g), wanted = std::min(least, cosine);
     Vector const mirrored = 2 * n.dot(wo) * n - wo;
     float const above = mirrored.dot(g);
-    if (above >= wanted || n == g) return n;
+    if (above >= wanted) return n;
     Vector const bisector = wo + (mirrored + (wanted - above) * g).normalized();
     float const length2 = bisector.squaredNorm();
     return length2 > 1e-12f ? Direction(bisector / std::sqrt(length2)) : g;
