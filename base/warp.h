@@ -15,9 +15,12 @@ namespace iride {
 inline Vector2 to_disc(Sample2 u) {
     float const x = 2 * u.x - 1, y = 2 * u.y - 1;
     if (x == 0 && y == 0) return {0, 0};
+    // Which is the larger is as good as random: selected without a branch.
     bool const wide = std::abs(x) > std::abs(y);
-    auto const [sine, cosine] = sine_cosine_of_octant(pi / 4 * (wide ? y / x : x / y));
-    return wide ? Vector2(x * cosine, x * sine) : Vector2(y * sine, y * cosine);
+    float const large = select(wide, x, y), small = select(wide, y, x);
+    auto const [sine, cosine] = sine_cosine_of_octant(pi / 4 * (small / large));
+    float const along = large * cosine, across = large * sine;
+    return {select(wide, along, across), select(wide, across, along)};
 }
 
 // Cosine-weighted on the hemisphere z >= 0: a disc lifted up. Density cos / pi.

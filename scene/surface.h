@@ -28,12 +28,12 @@ inline void locate(Sphere const& s, Vector const& on_ray, HitCoordinates const&,
     point.size = s.radius;
 }
 inline void locate(Quad const& q, Vector const&, HitCoordinates const& hit, SurfacePoint& point) {
-    // Embree's quad is the triangles (0 1 3), parametrised by (u, v), and (2 3 1), by (1 - u, 1 - v).
-    auto const& c = q.corner;
-    float const u = hit.u, v = hit.v;
-    Vector const p = u + v <= 1 ? Vector(c[0] + u * (c[1] - c[0]) + v * (c[3] - c[0]))
-                                : Vector(c[2] + (1 - u) * (c[3] - c[2]) + (1 - v) * (c[1] - c[2]));
-    set_plain(point, p, q.normal);
+    // Embree's quad is the triangles (0 1 3), parametrised by (u, v), and (2 3 1), by (1 - u, 1 - v). Which of them is
+    // as good as random: chosen without a branch.
+    bool const first = hit.u + hit.v <= 1;
+    Vector const &a = q.corner[first ? 0 : 2], &b = q.corner[first ? 1 : 3], &c = q.corner[first ? 3 : 1];
+    float const u = first ? hit.u : 1 - hit.u, v = first ? hit.v : 1 - hit.v;
+    set_plain(point, a + u * (b - a) + v * (c - a), q.normal);
 }
 inline void locate(Disc const& d, Vector const& on_ray, HitCoordinates const&, SurfacePoint& point) {
     set_plain(point, on_ray - d.normal * d.normal.dot(on_ray - d.centre), d.normal);
