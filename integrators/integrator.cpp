@@ -21,7 +21,7 @@ namespace {
 constexpr std::array<IntegratorEntry, 14> table{{
     {"path", "path tracing: light sampling and scattering, unbiased", make_path, true},
     {"reference_path", "path tracing by scattering alone: slow, the oracle of the others", make_reference_path, true},
-    {"auto", "path or bidirectional, whichever suits the scene (`iride plan` says why)", make_auto, true},
+    {"auto", "path or caustic-path, whichever suits the scene (`iride plan` says why)", make_auto, true},
     {"light-tracing", "paths from the lights, shown to the camera: caustics, but no mirror images", make_light_tracing},
     {"bidirectional", "paths from camera and light, joined in every way: unbiased, caustics and mirror images",
      make_bidirectional},

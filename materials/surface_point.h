@@ -10,7 +10,7 @@ struct SurfacePoint {
     Vector position;
     Direction geometric_normal;  // on the front side of the shape
     Direction normal;            // for shading; on the front side too
-    float size = 0;  // [m] of the shape, if it is larger than the position's coordinates and makes them as uncertain
+    float size = 0;  // [m] the position is at least as uncertain as a coordinate of this size; 0: not known
 
     // Set only where the shape's material asks for it (MaterialTraits), see scene/parametrisation.h.
     Vector2 uv{0, 0};

@@ -201,6 +201,7 @@ struct Accelerator::Implementation {
     std::vector<Shape> const* shapes = nullptr;
     std::vector<PlacedObject> instances;
     unsigned first_instance = 0;  // geometry ids below are shapes, from here on instances
+    float least_size = 0;         // of its points: usual_size, less in scenes that are small themselves
 
     ~Implementation() {
         for (RTCScene s : object_scenes) rtcReleaseScene(s);
@@ -251,6 +252,7 @@ struct Accelerator::Implementation {
         if (hit.shape->parametrised) parametrise(hit.shape->geometry, at, hit.point);
         if (hit.shape->flipped) flip(hit.point);
         if (placed) place(*placed, hit);
+        hit.point.size = std::max(hit.point.size, least_size);
         if (!hit.shape->parametrised) return;
         set_tangent_and_footprint(hit.point, ray.direction, query.cone.width_at(distance));
         if (hit.shape->relief) turn_normal(hit.point, hit.shape->relief->normal_at(hit.point));
@@ -340,6 +342,8 @@ Accelerator::Accelerator(std::vector<Shape> const& shapes, std::vector<ObjectGeo
     rtcCommitScene(self.scene);
     if (RTCError const error = rtcGetDeviceError(self.device); error != RTC_ERROR_NONE)
         throw std::runtime_error("Embree could not build the scene (error " + std::to_string(error) + ")");
+    constexpr float of_the_scene = 2e-5f;
+    self.least_size = std::min(usual_size, of_the_scene * (upper_bound() - lower_bound()).norm());
 }
 
 Accelerator::~Accelerator() = default;

@@ -92,13 +92,12 @@ class Accelerator {
 // The time stamp counter, or 0 where there is none.
 std::uint64_t processor_ticks();
 
-// A place off the surface, on the side of `direction`: 64 units in the last place of the largest coordinate, or of a
-// sphere's radius, away (a point computed from barycentrics errs by 3 to 20), and as if that were at least .1 mm,
-// Embree's own uncertainty for points near the origin. A ray from there neither hits nor skips its own surface.
-// [Wächter 2019]
+// A place off the surface, on the side of `direction`: 64 units in the last place of the largest coordinate, or of the
+// point's size, away (a point computed from barycentrics errs by 3 to 20). A ray from there neither hits nor skips its
+// own surface. [Wächter 2019]
+inline constexpr float usual_size = 1e-4f;  // m: points near the origin are as uncertain as if they were there
 inline Vector off_surface(SurfacePoint const& point, Direction const& direction) {
-    constexpr float smallest = 1e-4f;  // m
-    float const largest = std::max({point.position.cwiseAbs().maxCoeff(), point.size, smallest});
+    float const largest = std::max(point.position.cwiseAbs().maxCoeff(), point.size > 0 ? point.size : usual_size);
     float const offset = 64 * std::numeric_limits<float>::epsilon() * largest;
     float const side = direction.dot(point.geometric_normal) >= 0 ? offset : -offset;
     return point.position + side * point.geometric_normal;

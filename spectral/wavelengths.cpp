@@ -23,13 +23,17 @@ WavelengthSampler::WavelengthSampler(WavelengthRange const& range, SpectralFunct
         double const wanted = mean > 0 ? importance.at(range.min_nm + (i + 0.5) * dx) / mean : 1;
         cumulative.push_back(cumulative.back() + std::max(wanted, floor_share));
     }
+    std::vector<double> knots;
     std::size_t at = 0;
     for (int k = 0; k <= segment_count; ++k) {
         double const target = cumulative.back() * k / segment_count;
         while (at + 2 < cumulative.size() && cumulative[at + 1] < target) ++at;
         double const f = (target - cumulative[at]) / (cumulative[at + 1] - cumulative[at]);
-        knot_nm_.push_back(static_cast<float>(range.min_nm + (static_cast<double>(at) + f) * dx));
+        knots.push_back(range.min_nm + (static_cast<double>(at) + f) * dx);
+        knot_nm_.push_back(static_cast<float>(knots.back()));
     }
+    for (std::size_t k = 0; k < segment_count; ++k)
+        density_.push_back(static_cast<float>(1 / (segment_count * (knots[k + 1] - knots[k]))));
     knot_nm_.front() = static_cast<float>(range.min_nm);
     knot_nm_.back() = static_cast<float>(range.max_nm);
 }
@@ -62,10 +66,9 @@ Wavelengths WavelengthSampler::sample(float u) const {
     for (int i = 0; i < lane_count; ++i)
         segment[i] = (hero_segment + i * (segment_count / lane_count)) & (segment_count - 1);
     auto const [low, high] = ends_of_cells(knot_nm_.data(), segment);
-    LaneRegister const width = high - low;
     Wavelengths w;
-    w.nm = low + f * width;
-    w.density.lane = 1.0f / (static_cast<float>(segment_count) * width);
+    w.nm = low + f * (high - low);
+    for (int i = 0; i < lane_count; ++i) w.density.lane[i] = density_[static_cast<std::size_t>(segment[i])];
     place_on_grid(w, grid_first_nm_, grid_cells_);
     return w;
 }

@@ -74,6 +74,7 @@ class WavelengthSampler {
     WavelengthRange range_;
     int grid_first_nm_, grid_cells_;
     std::vector<float> knot_nm_;  // [segment_count + 1]
+    std::vector<float> density_;  // [segment_count], from knots that floats may not tell apart
 };
 
 // The default importance for XYZ: where the observer sees, and smooth, so that the lanes of a packet average well.

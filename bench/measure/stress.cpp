@@ -24,6 +24,14 @@ std::uint64_t rejected_in(Film const& film) {
     return sum;
 }
 
+// Of Y, over the pixels: few samples of one pixel may all miss what is rare, and say that nothing varies.
+double mean_variance(Film const& film) {
+    double sum = 0;
+    for (int y = 0; y < film.height(); ++y)
+        for (int x = 0; x < film.width(); ++x) sum += film.variance(x, y).Y;
+    return sum / (film.width() * film.height());
+}
+
 class Stress {
   public:
     explicit Stress(int spp) : spp_(spp) {}
@@ -53,12 +61,10 @@ class Stress {
         constexpr double rounding = 1e-4;  // of floats along a path, relative
         constexpr double outliers = 2e-3;  // of pixels: their errors are no normal ones at these counts
         double const n = film.width() * film.height();
-        double mean = 0, variance = 0, beyond = 0;
+        double const variance = mean_variance(film);
+        double mean = 0, beyond = 0;
         for (int y = 0; y < film.height(); ++y)
-            for (int x = 0; x < film.width(); ++x) {
-                mean += film.mean(x, y).Y / n;
-                variance += film.variance(x, y).Y / n;
-            }
+            for (int x = 0; x < film.width(); ++x) mean += film.mean(x, y).Y / n;
         for (int y = 0; y < film.height(); ++y)
             for (int x = 0; x < film.width(); ++x)
                 beyond += std::abs(film.mean(x, y).Y - expected) >
@@ -83,7 +89,7 @@ class Stress {
     std::vector<StressCase> cases_;
 };
 
-std::string vector_text(VectorDouble const& v) { return fmt::format("[{:.9g},{:.9g},{:.9g}]", v.x(), v.y(), v.z()); }
+std::string vector_text(VectorDouble const& v) { return fmt::format("[{:.17g},{:.17g},{:.17g}]", v.x(), v.y(), v.z()); }
 
 std::string scene_text(VectorDouble const& eye, VectorDouble const& target, double field_deg, std::string const& rest) {
     return fmt::format(R"({{ "camera": {{ "eye": {}, "target": {}, "field_deg": {} }}, "film": {{ "size": [24, 24] }},
@@ -125,11 +131,10 @@ void scales_and_distances(Stress& s) {
         s.expect_everywhere("glowing box of " + name, s.render_text(name, glowing_box(size, {0, 0, 0})), 2);
         s.expect_black("closed box of " + name, s.render_text(name, closed_box(size, {0, 0, 0})));
     }
-    for (double const away : {1e2, 1e3, 1e4}) {
+    for (double const away : {1e2, 1e4, 1e8}) {
         VectorDouble const at(away, -away, 0.7 * away);
         std::string const name = fmt::format("{:g} sizes away", away);
         s.expect_everywhere("glowing box " + name, s.render_text(name, glowing_box(1, at)), 2);
-        // Fails: a point within its own rounding of an edge may lie beyond the wall that meets it there.
         s.expect_black("closed box " + name, s.render_text(name, closed_box(1, at)));
     }
 }
@@ -175,9 +180,10 @@ void optical_constants(Stress& s) {
                 name,
                 ball(fmt::format(R"({{ "type": "conductor", "ior": {{ "n": {}, "k": {} }}{} }})", n, k, roughness)));
             double most = 0;
+            double const usual = mean_variance(film);
             for (int y = 0; y < film.height(); ++y)
                 for (int x = 0; x < film.width(); ++x)
-                    most = std::max(most, film.mean(x, y).Y - 5 * std::sqrt(film.variance(x, y).Y));
+                    most = std::max(most, film.mean(x, y).Y - 6 * std::sqrt(std::max(usual, film.variance(x, y).Y)));
             s.add(name + ": brighter than its furnace", most, 1 + 1e-4);
         }
         for (double const n : {1.0001, 1.5, 4.0}) {
