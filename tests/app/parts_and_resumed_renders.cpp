@@ -57,8 +57,7 @@ bool same_pixels(XyzPicture const& a, XyzPicture const& b, double tolerance) {
 
 }  // namespace
 
-// Fails when a resumed pixel goes on from the samples that all pixels have, and not from its own; when a checkpoint has
-// no splats, or a resumed film begins them anew; and for photons whose radius starts from the pass at hand.
+// Fails when a resumed pixel goes on from the samples that all pixels have, and not from its own.
 TEST_CASE("a render killed again and again ends in the same bits", "[app]") {
     Work const at;
     for (std::string const kind :
@@ -81,7 +80,6 @@ TEST_CASE("a render killed again and again ends in the same bits", "[app]") {
     }
 }
 
-// Fails when the layers' own render listens to the interruption: then nothing is direct.
 TEST_CASE("Ctrl-C ends with 130, a checkpoint, and a picture of what is finished with its layers", "[app]") {
     Work const at;
     std::string const render = "render cornell --size 48x40 --quiet --spp 400 --colourspace XYZ --aov direct,indirect ";

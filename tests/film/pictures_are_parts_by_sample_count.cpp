@@ -44,8 +44,7 @@ ExrSettings settings(std::uint32_t first_sample) {
 
 }  // namespace
 
-// Fails when rejected samples count for the weight (pixel (2, 1)), when the exposure is left in, and for the mean of
-// the parts' variances.
+// Pixel (2, 1) has rejected samples, which do not count for its weight.
 TEST_CASE("parts read from pictures add up to the film of all samples", "[unit]") {
     TemporaryFolder const folder;
     Film whole = empty();

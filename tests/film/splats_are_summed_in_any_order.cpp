@@ -46,9 +46,8 @@ TEST_CASE("a splatted mean's variance is that of paths of which most bring nothi
     CHECK(splats.variance(0, 2).X == Approx((10 - 3.2) / 25));
 }
 
-// Of N = 5 paths, four of which bring (3, 1, 0), (1, 2, 1), twice nothing to one pixel of six: (sum v v' - sum v sum v'
-// / 5) / 25; the camera's samples of the same film add theirs, the sample covariance over n. Fails for the splats'
-// variances alone, and for products of the wrong pairs.
+// Of N = 5 paths two bring (3, 1, 0) and (1, 2, 1) to one pixel of six: (sum v v' - sum v sum v'
+// / 5) / 25; the camera's samples of the same film add theirs, the sample covariance over n.
 TEST_CASE("a pixel's covariance is that of its samples and of its splats", "[unit]") {
     Splats splats(2, 3, 0);
     splats.add(0, 2, {3, 1, 0});
@@ -83,7 +82,6 @@ TEST_CASE("a pixel's covariance is that of its samples and of its splats", "[uni
     CHECK(std::abs(light.covariance(0, 0)(0, 1)) > 0.1 * light.covariance(0, 0)(0, 0));
 }
 
-// Fails when sums of squares, bands or paths are forgotten.
 TEST_CASE("splats of two films added up are those of one, to the bit", "[unit]") {
     Splats whole(3, 2, 2), first = whole, second = whole;
     for (std::uint32_t i = 0; i < 200; ++i) {

@@ -63,9 +63,7 @@ std::map<std::string, std::vector<float>> layers_of(Scene const& scene, std::str
 
 }  // namespace
 
-// The first fails for terms that reach the picture by another way than through the groups, such as a lamp seen behind a
-// surface that is none or the point's light; the second for a term that is put under the wrong lamp, which sums do not
-// see. Tried: shadow rays' light under lamp 0 fails the second alone; the environment's left out fails both.
+// Sums do not see a term that is put under the wrong lamp; the second check does.
 TEST_CASE("light groups add up to the picture, and each is the picture of its lamps alone", "[law]") {
     std::string const
         glass = R"({ "type": "dielectric", "ior": { "pairs": [[300, 2.0], [900, 1.4]] } })",

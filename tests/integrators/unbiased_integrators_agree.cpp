@@ -130,6 +130,6 @@ void check_agreement(Trial const& trial, int pictures, int spp, double margin, d
 
 }  // namespace
 
-TEST_CASE("unbiased integrators agree on six scenes", "[law]") {
+TEST_CASE("unbiased integrators agree on six scenes", "[.long]") {
     for (Trial const& trial : trials) check_agreement(trial, 64, 64, 0.01, 0.1);
 }

@@ -76,6 +76,7 @@ std::vector<Method> methods(bool many_photons) {
                             {"bidirectional"},
                             {"bidirectional-power"},
                             {"bidirectional", endless, false, false, true},
+                            {"caustic-path", endless, false, false, true},
                             {"direct", 1},
                             {"recursive", 1},
                             {"radiosity", endless, false, false}};
@@ -103,12 +104,12 @@ TEST_CASE("the furnaces' table has every integrator that sees light", "[unit]") 
     }
 }
 
-TEST_CASE("every integrator finds e / (1 - rho) in a furnace", "[law]") {
+TEST_CASE("every integrator finds e / (1 - rho) in a furnace", "[.long]") {
     for (Method const& m : methods(false))
         for (double rho : {0.5, 0.8}) check_furnace(m, rho, {});
 }
 
-TEST_CASE("paths of n scatterings find the first n + 1 terms of a furnace's series", "[law]") {
+TEST_CASE("paths of n scatterings find the first n + 1 terms of a furnace's series", "[.long]") {
     for (Method const& m : methods(false))
         for (int bounces : {0, 1, 2, 5})
             if (m.takes_bounces) check_furnace(m, 0.7, bounces);

@@ -52,7 +52,7 @@ Error error_of(Scene const& scene, int photons, int neighbours, Film const& refe
 
 }  // namespace
 
-TEST_CASE("a photon map's error falls as its photons to the -2/3, and its bias is that of a disc's mean", "[law]") {
+TEST_CASE("a photon map's error falls as its photons to the -2/3, and its bias is that of a disc's mean", "[.long]") {
     auto const scene = test::scene_from(lit_by_a_wall);
     Film const reference = test::rendered(*scene, "path", {.spp = 16384, .seed = 3});
     std::vector<Error> errors;
