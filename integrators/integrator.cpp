@@ -19,15 +19,19 @@ namespace iride {
 namespace {
 
 constexpr std::array<IntegratorEntry, 14> table{{
-    {"path", "path tracing: light sampling and scattering, unbiased", make_path, true},
-    {"reference_path", "path tracing by scattering alone: slow, the oracle of the others", make_reference_path, true},
-    {"auto", "path or caustic-path, whichever suits the scene (`iride plan` says why)", make_auto, true},
-    {"light-tracing", "paths from the lights, shown to the camera: caustics, but no mirror images", make_light_tracing},
+    {"path", "path tracing: light sampling and scattering, unbiased", make_path, MediaKnown::scattering},
+    {"reference_path", "path tracing by scattering alone: slow, the oracle of the others", make_reference_path,
+     MediaKnown::scattering},
+    {"auto", "path or caustic-path, whichever suits the scene (`iride plan` says why)", make_auto,
+     MediaKnown::scattering},
+    {"light-tracing", "paths from the lights, shown to the camera: caustics, but no mirror images", make_light_tracing,
+     MediaKnown::between_bodies},
     {"bidirectional", "paths from camera and light, joined in every way: unbiased, caustics and mirror images",
-     make_bidirectional},
-    {"bidirectional-power", "the same, weighed by the power heuristic", make_bidirectional_power},
-    {"caustic-path",
-     "path tracing, and light paths aimed at mirrors and glass: unbiased, caustics; light_paths=", make_caustic_path},
+     make_bidirectional, MediaKnown::between_bodies},
+    {"bidirectional-power", "the same, weighed by the power heuristic", make_bidirectional_power,
+     MediaKnown::between_bodies},
+    {"caustic-path", "path tracing, and light paths aimed at mirrors and glass: unbiased, caustics; light_paths=",
+     make_caustic_path, MediaKnown::between_bodies},
     {"direct",
      "lamps and what they light without a stop; strategy= hemisphere, cosine, bsdf, area, solid-angle, mis; "
      "lights= uniform, power, tree, all; samples=",
@@ -45,14 +49,16 @@ constexpr std::array<IntegratorEntry, 14> table{{
 }};
 
 void refuse_media(IntegratorEntry const& entry, Scene const& scene, RenderPlan const& plan) {
-    if (entry.through_media || !(plan.scattering || scene.open_medium.attenuates())) return;
+    MediaKnown const needed = plan.scattering                  ? MediaKnown::scattering
+                              : scene.open_medium.attenuates() ? MediaKnown::between_bodies
+                                                               : MediaKnown::in_bodies;
+    if (entry.media >= needed) return;
     std::string able;
     for (IntegratorEntry const& e : table)
-        if (e.through_media) able += fmt::format("{}'{}'", able.empty() ? "" : ", ", e.name);
+        if (e.media >= needed) able += fmt::format("{}'{}'", able.empty() ? "" : ", ", e.name);
     throw InputError({}, "integrator",
-                     fmt::format("'{}' knows no medium that scatters or that fills the space between bodies, and this "
-                                 "scene has one; allowed: {}",
-                                 entry.name, able));
+                     fmt::format("'{}' knows no medium that {}, and this scene has one; allowed: {}", entry.name,
+                                 plan.scattering ? "scatters" : "fills the space between bodies", able));
 }
 
 }  // namespace

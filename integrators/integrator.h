@@ -40,12 +40,15 @@ class Integrator {
     virtual std::vector<std::string> remarks() const { return {}; }
 };
 
+// Through which media light is followed; each has what stands before it.
+enum class MediaKnown { in_bodies, between_bodies, scattering };
+
 struct IntegratorEntry {
     char const* name;
     char const* summary;
     // Asks all its options, calls options.finish() if it then works long, and says what scene it cannot do.
     std::unique_ptr<Integrator> (*make)(Scene const&, RenderPlan const&, IntegratorOptions& options);
-    bool through_media = false;  // follows light where a medium scatters, or fills the space between all bodies
+    MediaKnown media = MediaKnown::in_bodies;
 };
 std::span<IntegratorEntry const> integrator_entries();
 // What an integrator works out before the first path is done here. Throws InputError with the nearest name.

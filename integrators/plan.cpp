@@ -108,7 +108,7 @@ void decide_light_selection(Scene const& scene, RenderPlan& plan) {
             !choice                        ? "there is no choice"
             : scene.render.light_selection ? fmt::format("{}: the file's wish", name)
             : tree ? fmt::format("tree: {} lamps, of which each place asks those that may bring it most", finite)
-                   : "power: too few lamps for a tree to pay");
+                   : "power: no two lamps that have a place, of which a tree could choose");
 }
 
 }  // namespace
