@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // samplers [SCENE ...]: the error of each sampler at equal samples, as it is and after a small blur, which is what the
-// eye sees of a picture's noise: root mean square over pixels of Y, in shares of the picture's mean, for the median of
-// some seeds; and the processor's time. The reference is `path` with Sobol' points of its own seed.
+// eye sees of a picture's noise: root mean square over pixels of the relative error of Y, for the median of some seeds;
+// and the processor's time. The reference is `path` with Sobol' points of its own seed.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 
 using namespace iride;
 
-constexpr int side = 48, reference_spp = 4096, seeds = 3;
+constexpr int side = 48, reference_spp = 4096, seeds = 5;
 
 struct Timed {
     std::vector<double> Y;
@@ -53,11 +53,13 @@ std::vector<double> blurred(std::vector<double> const& image) {
     return pass(pass(image, 1, 0), 0, 1);
 }
 
+// Of what is darker than a tenth of the mean, in shares of that: no few bright or dark pixels decide.
 double relative_rms(std::vector<double> const& a, std::vector<double> const& b) {
-    double squares = 0, sum = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) squares += square(a[i] - b[i]), sum += b[i];
+    double squares = 0, mean = 0;
     auto const n = static_cast<double>(a.size());
-    return std::sqrt(squares / n) / (sum / n);
+    for (double x : b) mean += x / n;
+    for (std::size_t i = 0; i < a.size(); ++i) squares += square((a[i] - b[i]) / std::max(b[i], mean / 10));
+    return std::sqrt(squares / n);
 }
 
 double median(std::vector<double> x) {

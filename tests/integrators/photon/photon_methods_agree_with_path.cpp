@@ -95,7 +95,7 @@ TEST_CASE("photon methods are near path", "[law]") {
 // are both followed and gathered, for those that are neither, and for light of a point, which no path can meet.
 TEST_CASE("photon methods are near path where narrow directions are followed", "[law]") {
     auto const scene = test::scene_from(fmt::format(
-        R"({{ {} "shapes": [ {} {}
+        R"({{ {} "shapes": [ {} {},
              {{ "type": "sphere", "centre": [-0.8, 0.5, 0], "radius": 0.5, "material": {{ "type": "conductor", "ior": "Au", "roughness": 0.05 }} }},
              {{ "type": "sphere", "centre": [0.5, 0.5, 0.3], "radius": 0.5, "material": {{ "type": "conductor", "ior": "Ag", "roughness": 0.3 }} }},
              {{ "type": "sphere", "centre": [0, 0.3, -1], "radius": 0.3, "material": {{ "type": "dielectric", "ior": 1.5 }} }} ],
@@ -110,7 +110,7 @@ TEST_CASE("photon methods are near path where narrow directions are followed", "
     }
 }
 
-// With few photons a radius for the whole map is that of the floor, wider than the ball. Fails for it: 9 % dark.
+// With few photons a radius for the whole map is that of the floor, wider than the ball. Fails for it: 15 % dark.
 TEST_CASE("progressive photons see a ball within glass as bright as it is after a few passes", "[law]") {
     auto const scene = test::scene_from(fmt::format(
         R"({{ {} "shapes": [ {}
@@ -120,9 +120,16 @@ TEST_CASE("progressive photons see a ball within glass as bright as it is after 
         R"("camera": { "eye": [0, 1.2, -4], "target": [0, 0.6, 0], "field_deg": 5 }, "film": { "size": [8, 8] },)",
         walls, lamp));
     Film const reference = by("bidirectional", *scene, 8192, 3);
-    Difference const d = difference(by("progressive-photon:photons=4000", *scene, 64, 4), reference);
-    WARN(fmt::format("16 passes: bias {:+.2f} %, relMSE {:.2g}", 100 * d.mean, d.relmse));
-    CHECK(std::abs(d.mean) < 0.03);
+    constexpr int renders = 64;
+    double sum = 0, squares = 0;
+    for (std::uint64_t seed = 0; seed < renders; ++seed) {
+        double const bias = difference(by("progressive-photon:photons=4000", *scene, 16, seed), reference).mean;
+        sum += bias, squares += bias * bias;
+    }
+    double const mean = sum / renders, error = std::sqrt((squares / renders - mean * mean) / renders);
+    WARN(fmt::format("4 passes: bias {:+.2f} +- {:.2f} %", 100 * mean, 100 * error));
+    CHECK(std::abs(mean) < 0.06);
+    CHECK(error < 0.02);
 }
 
 // The expected square error of i passes falls as i^-alpha from the noise and i^-2(1-alpha) from the bias, both i^-2/3:
