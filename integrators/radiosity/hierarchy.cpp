@@ -87,9 +87,9 @@ double share_that_stays(PatchMesh const& mesh, PatchTracer const& tracer, std::s
 }  // namespace
 
 // F_ij <- d_i F_ij d_j, which keeps reciprocity, until the rows sum to the share of the light that stays in the scene:
-// 1 on the sides of shapes of whose rays none escapes, by rays from each patch on the others.
+// 1 on the sides of shapes of whose rays none is lost, by rays from each patch on the others.
 void Hierarchy::close(PatchMesh const& mesh, PatchTracer const& tracer) {
-    constexpr int rays_a_side = 512, rays_a_patch = 32;
+    constexpr int rays_a_side = 512, rays_a_patch = 32, rays_where_mixed = 256;
     std::size_t const sides = 2 * mesh.shape.size();
     std::vector<std::vector<std::size_t>> of_side(sides);
     for (std::size_t i = 0; i < mesh.patch.size(); ++i)
@@ -102,7 +102,9 @@ void Hierarchy::close(PatchMesh const& mesh, PatchTracer const& tracer) {
             closed = share_that_stays(mesh, tracer, own[k * own.size() / rays_a_side], static_cast<int>(k), 1) == 1;
         if (!closed)
             tbb::parallel_for(std::size_t{0}, own.size(), [&](std::size_t k) {
-                wanted[static_cast<Eigen::Index>(own[k])] = share_that_stays(mesh, tracer, own[k], 0, rays_a_patch);
+                double share = share_that_stays(mesh, tracer, own[k], 0, rays_a_patch);
+                if (share > 0 && share < 1) share = share_that_stays(mesh, tracer, own[k], 0, rays_where_mixed);
+                wanted[static_cast<Eigen::Index>(own[k])] = share;
             });
     });
     auto const row_sums = [&] { return gather(Spectra::Ones(scale_.size(), 1)).col(0).eval(); };

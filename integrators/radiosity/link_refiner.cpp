@@ -115,14 +115,15 @@ double LinkRefiner::near_exchange(int r, int s, double seen) const {
     return std::min(sum / (grid * grid) * from.area, to.area);
 }
 
-double LinkRefiner::visibility(int r, int s) const {
+// Share of `lines` free lines. Different `series`: independent lines.
+double LinkRefiner::visibility(int r, int s, int lines, int series) const {
     PatchNode const &a = tree_.node[static_cast<std::size_t>(r)], &b = tree_.node[static_cast<std::size_t>(s)];
     int free = 0, facing = 0;
-    for (int k = 0; k < limits_.lines; ++k) {
-        std::uint64_t const bits =
-            hash_words(static_cast<std::uint64_t>(r), static_cast<std::uint64_t>(s), static_cast<std::uint64_t>(k));
+    for (int k = 0; k < lines; ++k) {
+        std::uint64_t const bits = hash_words(static_cast<std::uint64_t>(r), static_cast<std::uint64_t>(s),
+                                              static_cast<std::uint64_t>(k), static_cast<std::uint64_t>(series));
         auto const number = [&](int shift) { return static_cast<float>((bits >> shift) & 0xffff) * 0x1p-16f; };
-        Patch const &p = patch(a, k, limits_.lines), &q = patch(b, (k * 3 + 1) % limits_.lines, limits_.lines);
+        Patch const &p = patch(a, k, lines), &q = patch(b, (k * 3 + 1) % lines, lines);
         VectorDouble const from = point_on(mesh_, p, {number(0), number(16)}),
                            to = point_on(mesh_, q, {number(32), number(48)});
         if (p.normal.dot(to - from) <= 0 || q.normal.dot(from - to) <= 0) continue;
@@ -175,10 +176,15 @@ void LinkRefiner::refine(Pair pair, OnLink const& link, OnPair const& go_on) con
         if (std::max(G, missed) * strength * std::min(1.0, size / distance) > allowed_) return split();
     }
     if (G <= 0 && !(both_leaves && near)) return;
-    double const seen = visibility(pair.r, pair.s);
-    bool const shadow_edge = seen > 0 && seen < 1;
+    // Lines that decide must not be those that count: what is split as they come out mixed and taken as it is where
+    // they all come out alike would be seen too often fully or, where little is free, not at all.
+    double const looked = visibility(pair.r, pair.s, limits_.lines, 0);
+    bool const shadow_edge = looked > 0 && looked < 1;
     if (splittable && shadow_edge && G * strength > allowed_) return split();
-    double const through = both_leaves && near ? near_exchange(pair.r, pair.s, seen) : G * seen;
+    constexpr double most = 8;  // times as many lines where nothing can be split and much depends on them
+    double const weight = both_leaves ? std::clamp(std::sqrt(G * strength / allowed_), 1.0, most) : 1;
+    double const seen = visibility(pair.r, pair.s, static_cast<int>(limits_.lines * weight), 1);
+    double const through = both_leaves && near ? near_exchange(pair.r, pair.s, std::min(looked, seen)) : G * seen;
     if (through > 0) link(Link{pair.r, pair.s, static_cast<float>(through)});
 }
 

@@ -26,7 +26,7 @@ class LinkRefiner {
     bool never_face(PatchNode const& a, PatchNode const& b) const;
     double exchange(PatchNode const& r, PatchNode const& s) const;
     double near_exchange(int r, int s, double seen) const;
-    double visibility(int r, int s) const;
+    double visibility(int r, int s, int lines, int series) const;
     Patch const& patch(PatchNode const& n, int k, int of) const;
 
     PatchMesh const& mesh_;
