@@ -30,7 +30,7 @@ struct DirectVertex {
 };
 
 // What a lamp's sample brings along the path if nothing stands between, the lamp being asked with probability `choice`.
-// shares(density, |cos|): whether directions of the BSDF find the same light.
+// shares(density, |cos|): how often directions of the BSDF find the same light, 0 .. 1.
 template <class Shares>
 Radiance from_lamp(DirectVertex const& v, LightSample const& light, float choice, Shares&& shares,
                    RayStatistics& statistics) {
@@ -42,7 +42,8 @@ Radiance from_lamp(DirectVertex const& v, LightSample const& light, float choice
     Lanes competitors(choice);  // for a lamp without extent in its own, Dirac, measure
     if (light.density) {
         float const density = choice * light.density->value;
-        competitors = shares(f.density, cosine) ? Lanes(f.density.lane + density) : Lanes(density);
+        float const share = shares(f.density, cosine);
+        competitors = Lanes(share * f.density.lane + density);
     }
     Lanes const scattered(f.value.lane * (cosine / mean(v.state.reach * competitors)));
     Throughput const let_through =

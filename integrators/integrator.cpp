@@ -11,14 +11,16 @@
 #include "integrators/light_tracing.h"
 #include "integrators/path.h"
 #include "integrators/photon/photon_integrators.h"
+#include "integrators/radiosity/directional.h"
 #include "integrators/radiosity/radiosity.h"
+#include "integrators/radiosity/two_pass.h"
 #include "integrators/recursive.h"
 
 namespace iride {
 
 namespace {
 
-constexpr std::array<IntegratorEntry, 14> table{{
+constexpr std::array<IntegratorEntry, 16> table{{
     {"path", "path tracing: light sampling and scattering, unbiased", make_path, MediaKnown::scattering},
     {"reference_path", "path tracing by scattering alone: slow, the oracle of the others", make_reference_path,
      MediaKnown::scattering},
@@ -42,6 +44,12 @@ constexpr std::array<IntegratorEntry, 14> table{{
      "how much of a sky each place would see; sampling= uniform, cosine; distance=", make_ambient_occlusion},
     {"radiosity", "diffuse surfaces cut into patches, solved for every wavelength: no noise",
      radiosity::make_radiosity},
+    {"directional-radiosity",
+     "the same where surfaces are rough, patch to patch to patch, for small scenes; patches=, wavelengths=",
+     radiosity::make_directional_radiosity},
+    {"two-pass",
+     "path tracing with radiosity as control variate: unbiased; patches=, rays= among them, go_on= of the paths",
+     radiosity::make_two_pass},
     {"photon-map", "one photon map, nearest photons: caustics at once, biased", make_photon_map},
     {"progressive-photon", "photon maps of shrinking radius, pass by pass: unbiased in the limit",
      make_progressive_photon},

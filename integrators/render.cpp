@@ -12,6 +12,7 @@
 #include <cmath>
 
 #include "base/clock.h"
+#include "integrators/signed_samples.h"
 
 namespace iride {
 
@@ -35,6 +36,7 @@ class Batch {
         : scene_(scene),
           integrator_(integrator),
           splats_(integrator.splats()),
+          may_be_negative_(dynamic_cast<SignedSamples const*>(&integrator)),
           starter_(starter),
           film_(film),
           groups_(groups),
@@ -70,10 +72,10 @@ class Batch {
         std::fill_n(first, groups_->count(), Radiance());
         return groups_->shares(first);
     }
-    static std::optional<Rejection> why_rejected(CameraPath const& path) {
+    std::optional<Rejection> why_rejected(CameraPath const& path) const {
         if (!path.complete) return Rejection::path_too_long;
         if (!is_finite(path.radiance)) return Rejection::not_finite;
-        if (is_negative(path.radiance)) return Rejection::negative;
+        if (!may_be_negative_ && is_negative(path.radiance)) return Rejection::negative;
         return std::nullopt;
     }
     void deposit(Pixel p, CameraPath const& path) {
@@ -96,7 +98,7 @@ class Batch {
 
     Scene const& scene_;
     Integrator const& integrator_;
-    bool splats_;
+    bool splats_, may_be_negative_;
     PathStarter const& starter_;
     Film& film_;
     LightGroupFilms* groups_;

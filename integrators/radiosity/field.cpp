@@ -8,6 +8,18 @@ namespace iride::radiosity {
 RadiosityField::RadiosityField(PatchMesh mesh, std::vector<double> wavelengths_nm, AtVertex at_vertex)
     : mesh_(std::move(mesh)), tracer_(mesh_), nm_(std::move(wavelengths_nm)), at_vertex_(std::move(at_vertex)) {}
 
+WavelengthCells::WavelengthCells(std::vector<double> const& nm, Wavelengths const& wavelengths)
+    : last_(static_cast<Eigen::Index>(nm.size()) - 1) {
+    float const first_nm = static_cast<float>(nm.front()), last = std::max(0.0f, static_cast<float>(nm.size()) - 2),
+                per_nm = nm.size() < 2 ? 0 : 1 / static_cast<float>(nm[1] - nm[0]);
+    for (int lane = 0; lane < lane_count; ++lane) {
+        float const place = (wavelengths.nm[lane] - first_nm) * per_nm,
+                    cell = std::clamp(std::floor(place), 0.0f, last);
+        cell_[static_cast<std::size_t>(lane)] = static_cast<Eigen::Index>(cell);
+        fraction_[static_cast<std::size_t>(lane)] = place - cell;
+    }
+}
+
 // Wachspress coordinates: barycentric in a triangle, bilinear in a rectangle, smooth and linear along edges in between.
 Radiance RadiosityField::radiance(PatchHit const& hit, Wavelengths const& wavelengths) const {
     Radiance L;
@@ -29,19 +41,12 @@ Radiance RadiosityField::radiance(PatchHit const& hit, Wavelengths const& wavele
         total += weight[k];
     }
     if (!(total > 0)) return L;
-    auto const last = static_cast<float>(nm_.size()) - 2;
-    float const first_nm = static_cast<float>(nm_.front());
-    float const per_nm = nm_.size() < 2 ? 0 : 1 / static_cast<float>(nm_[1] - nm_[0]);
+    WavelengthCells const cells(nm_, wavelengths);
     for (int lane = 0; lane < lane_count; ++lane) {
-        float const place = (wavelengths.nm[lane] - first_nm) * per_nm;
-        float const cell = std::clamp(std::floor(place), 0.0f, std::max(0.0f, last)), fraction = place - cell;
-        auto const column = static_cast<Eigen::Index>(cell), next = std::min(column + 1, at_vertex_.cols() - 1);
         float b = 0;
-        for (std::size_t k = 0; k < n; ++k) {
-            auto const row = p.vertex[k];
+        for (std::size_t k = 0; k < n; ++k)
             b += static_cast<float>(weight[k] / total) *
-                 (at_vertex_(row, column) + fraction * (at_vertex_(row, next) - at_vertex_(row, column)));
-        }
+                 cells.at(lane, [&](Eigen::Index column) { return at_vertex_(p.vertex[k], column); });
         L.lane[lane] = std::max(0.0f, b) * inverse_pi;
     }
     return L;

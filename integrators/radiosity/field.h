@@ -8,6 +8,23 @@
 
 namespace iride::radiosity {
 
+// Where the lanes of a packet lie among evenly spaced wavelengths: at(lane, value of column) is linear between them.
+class WavelengthCells {
+  public:
+    WavelengthCells(std::vector<double> const& nm, Wavelengths const& wavelengths);
+    template <class OfColumn>
+    float at(int lane, OfColumn const& value) const {
+        float const low = value(cell_[static_cast<std::size_t>(lane)]), high = value(next(lane));
+        return low + fraction_[static_cast<std::size_t>(lane)] * (high - low);
+    }
+
+  private:
+    Eigen::Index next(int lane) const { return std::min(cell_[static_cast<std::size_t>(lane)] + 1, last_); }
+    std::array<Eigen::Index, lane_count> cell_;
+    std::array<float, lane_count> fraction_;
+    Eigen::Index last_;
+};
+
 class RadiosityField {
   public:
     using AtVertex = Eigen::Array<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;  // [vertex][wavelength]

@@ -7,6 +7,8 @@
 #include <map>
 #include <tuple>
 
+#include "integrators/radiosity/mirrors.h"
+
 namespace iride::radiosity {
 
 namespace {
@@ -68,8 +70,16 @@ class Albedos {
 
 }  // namespace
 
+Wavelengths packet_of(std::vector<double> const& wavelengths_nm, std::size_t first, WavelengthGrid const& grid) {
+    LaneRegister nm{};
+    for (int k = 0; k < lane_count; ++k)
+        nm[k] = static_cast<float>(
+            wavelengths_nm[std::min(first + static_cast<std::size_t>(k), wavelengths_nm.size() - 1)]);
+    return wavelengths_at(nm, grid);
+}
+
 System patch_spectra(Scene const& scene, PatchMesh const& mesh, PatchTracer const& tracer,
-                     std::vector<double> const& wavelengths_nm) {
+                     std::vector<double> const& wavelengths_nm, bool mirrors) {
     auto const n = static_cast<Eigen::Index>(mesh.patch.size()), w = static_cast<Eigen::Index>(wavelengths_nm.size());
     System system;
     system.area.resize(n);
@@ -77,19 +87,15 @@ System patch_spectra(Scene const& scene, PatchMesh const& mesh, PatchTracer cons
     system.emission = Spectra::Zero(n, w);
     for (Eigen::Index first = 0; first < w; first += lane_count) {
         Eigen::Index const lanes = std::min<Eigen::Index>(lane_count, w - first);
-        LaneRegister nm{};
-        for (int k = 0; k < lane_count; ++k)
-            nm[k] =
-                static_cast<float>(wavelengths_nm[static_cast<std::size_t>(std::min<Eigen::Index>(first + k, w - 1))]);
-        Wavelengths const packet = wavelengths_at(nm, scene.grid);
+        Wavelengths const packet = packet_of(wavelengths_nm, static_cast<std::size_t>(first), scene.grid);
         Albedos albedos(packet);
         for (Eigen::Index i = 0; i < n; ++i) {
             Patch const& p = mesh.patch[static_cast<std::size_t>(i)];
             Shape const& shape = *mesh.shape[static_cast<std::size_t>(p.shape)];
-            Direction const normal = (p.back ? -1.0 : 1.0) * p.normal.cast<float>();
-            SurfacePoint const point{p.centre.cast<float>(), normal, normal};
+            SurfacePoint const point = front_point(p);
             system.area[i] = p.area;
-            Lanes const rho = albedos(scene.material(shape.material), point, p.back);
+            bool const followed = mirrors && is_mirror(scene.materials[static_cast<std::size_t>(shape.material)]);
+            Lanes const rho = followed ? Lanes(0) : albedos(scene.material(shape.material), point, p.back);
             Irradiance const arriving = outside_light(scene, tracer, p, packet);
             Radiance emitted;
             if (shape.light >= 0)
@@ -113,7 +119,7 @@ std::string describe(Scene const& scene, PatchMesh const& mesh, std::size_t patc
 
 namespace {
 
-void say_material(NamedMaterial const& m, std::vector<std::string>& remarks) {
+void say_material(NamedMaterial const& m, bool mirrors, std::vector<std::string>& remarks) {
     Material const& material = *m.material;
     auto const say = [&](std::string const& what) {
         remarks.push_back(fmt::format("radiosity: material '{}' ({}) {}", m.name, m.type, what));
@@ -121,8 +127,11 @@ void say_material(NamedMaterial const& m, std::vector<std::string>& remarks) {
     bool const exact = m.type == "diffuse" || m.type == "black";
     if (material.body() || m.type == "slab" || m.type == "film")
         say("transmits: that is ignored, it is a wall that reflects diffusely");
-    else if (!material.traits.has_density && m.type != "black")
-        say("is a mirror: taken for a diffuse surface of its albedo");
+    else if (is_mirror(m))
+        say(mirrors
+                ? "is a mirror: followed by rays, curved ones as facets; light from lamps without extent or from the "
+                  "environment is not"
+                : "is a mirror: what it sends to other surfaces is taken for diffuse, as of its albedo");
     else if (!exact)
         say("is taken for a diffuse surface of its albedo under even light");
     if (material.traits.textured) say("varies over the surface: looked at in the middle of each patch");
@@ -132,14 +141,14 @@ void say_material(NamedMaterial const& m, std::vector<std::string>& remarks) {
 
 }  // namespace
 
-std::vector<std::string> approximations(Scene const& scene, PatchMesh const& mesh) {
+std::vector<std::string> approximations(Scene const& scene, PatchMesh const& mesh, bool mirrors) {
     std::vector<std::string> remarks;
     std::vector<char> used(scene.materials.size(), 0);
     bool diffuse = false;
     for (Shape const* s : mesh.shape) used[static_cast<std::size_t>(s->material)] = 1;
     for (std::size_t m = 0; m < used.size(); ++m) {
         if (!used[m]) continue;
-        say_material(scene.materials[m], remarks);
+        say_material(scene.materials[m], mirrors, remarks);
         diffuse |= scene.materials[m].material->traits.has_density;
     }
     if (!diffuse) remarks.emplace_back("radiosity: no surface is diffuse: nothing of this picture is exact");

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <set>
+
 #include "base/diagnostics.h"
 #include "integrators/radiosity/polygon_form_factor.h"
 #include "integrators/radiosity/tessellation.h"
@@ -45,21 +47,52 @@ void add_side(PatchMesh& mesh, Faces const& faces, int shape, bool turned, int f
     }
 }
 
-// Whether a ray that leaves the back of some of a shape's patches meets anything.
-bool shows_its_back(PatchMesh const& fronts, PatchTracer const& tracer, int shape) {
+// What rays meet that leave the backs of some of a shape's patches: anything that light may come from, or backs of
+// shapes.
+struct SeenBehind {
+    bool lit = false;
+    std::set<int> backs;
+};
+SeenBehind seen_behind(PatchMesh const& fronts, PatchTracer const& tracer, int shape) {
     constexpr int patches = 16, rays = 16;
     std::vector<Patch const*> own;
     for (Patch const& p : fronts.patch)
         if (p.shape == shape) own.push_back(&p);
     std::size_t const step = std::max<std::size_t>(1, own.size() / patches);
+    SeenBehind seen;
     for (std::size_t i = 0; i < own.size(); i += step)
         for (int k = 0; k < rays; ++k) {
             Sampler sampler(SamplerKind::sobol, 0, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(k));
             Direction const local = to_cosine_hemisphere(sampler.next2());
             Direction const behind = Frame::around((-own[i]->normal).cast<float>()).to_world(local);
-            if (tracer.closest(own[i]->centre, -own[i]->normal, behind.cast<double>())) return true;
+            auto const hit = tracer.closest(own[i]->centre, -own[i]->normal, behind.cast<double>());
+            if (!hit) continue;
+            int const met = fronts.patch[static_cast<std::size_t>(std::max(hit->patch, hit->other_side))].shape;
+            if (hit->patch >= 0 || fronts.shape[static_cast<std::size_t>(met)]->light >= 0)
+                seen.lit = true;
+            else
+                seen.backs.insert(met);
         }
-    return false;
+    return seen;
+}
+
+// Shapes whose backs light may reach: they see a front, a lamp, or another such back. The inside of a closed body is
+// dark.
+std::vector<bool> lit_backs(PatchMesh const& fronts) {
+    PatchTracer const tracer(fronts);
+    std::vector<SeenBehind> seen;
+    std::vector<bool> lit;
+    for (std::size_t s = 0; s < fronts.shape.size(); ++s) {
+        seen.push_back(seen_behind(fronts, tracer, static_cast<int>(s)));
+        lit.push_back(seen.back().lit);
+    }
+    for (bool changed = true; changed;) {
+        changed = false;
+        for (std::size_t s = 0; s < lit.size(); ++s)
+            if (!lit[s] && std::ranges::any_of(seen[s].backs, [&](int b) { return lit[static_cast<std::size_t>(b)]; }))
+                lit[s] = changed = true;
+    }
+    return lit;
 }
 
 }  // namespace
@@ -69,6 +102,11 @@ std::vector<VectorDouble> PatchMesh::polygon(Patch const& p) const {
     for (int k = 0; k < p.corners; ++k)
         corners.push_back(position[static_cast<std::size_t>(p.vertex[static_cast<std::size_t>(k)])]);
     return corners;
+}
+
+SurfacePoint front_point(Patch const& p) {
+    Direction const normal = (p.back ? -1.0 : 1.0) * p.normal.cast<float>();
+    return {p.centre.cast<float>(), normal, normal};
 }
 
 void measure(PatchMesh const& mesh, Patch& p) {
@@ -111,11 +149,10 @@ PatchMesh make_patches(Scene const& scene, double size_m) {
         add_side(fronts, faces.back(), static_cast<int>(fronts.shape.size()), p.shape->flipped, -1);
         fronts.shape.push_back(p.shape);
     }
-    PatchTracer const tracer(fronts);
+    std::vector<bool> const lit = lit_backs(fronts);
     PatchMesh mesh = fronts;
     for (std::size_t s = 0; s < all.size(); ++s)
-        if (shows_its_back(fronts, tracer, static_cast<int>(s)))
-            add_side(mesh, faces[s], static_cast<int>(s), !all[s].shape->flipped, first[s]);
+        if (lit[s]) add_side(mesh, faces[s], static_cast<int>(s), !all[s].shape->flipped, first[s]);
     return mesh;
 }
 

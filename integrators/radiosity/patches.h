@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A scene cut into patches: planar triangles and quadrilaterals no longer than a wanted size, without T-junctions: an
-// edge that two patches of a surface share is cut alike for both. Curved shapes become facets. A surface that shows its
-// back to something gets patches there too. Area, normal and vertices are of the side that the patch stands for.
+// edge that two patches of a surface share is cut alike for both. Curved shapes become facets. A surface whose back
+// light may reach gets patches there too. Area, normal and vertices are of the side that the patch stands for.
 #pragma once
 
 #include <array>
@@ -36,6 +36,9 @@ double expected_patches(Scene const& scene, double size_m);
 
 // Throws InputError for a scene without surfaces.
 PatchMesh make_patches(Scene const& scene, double size_m);
+
+// The middle of a patch as a point of its shape.
+SurfacePoint front_point(Patch const& p);
 
 // Normal, centre and area of a patch from its vertices.
 void measure(PatchMesh const& mesh, Patch& p);

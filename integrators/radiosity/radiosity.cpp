@@ -6,6 +6,7 @@
 #include "integrators/radiosity/global_lines.h"
 #include "integrators/radiosity/hierarchy.h"
 #include "integrators/radiosity/memory.h"
+#include "integrators/radiosity/mirrors.h"
 #include "integrators/radiosity/on_demand.h"
 #include "integrators/radiosity/patch_spectra.h"
 #include "integrators/radiosity/solvability.h"
@@ -81,19 +82,22 @@ SceneRadiosity::SceneRadiosity(Scene const& scene, WavelengthRange const& range,
     if (!solver && !stochastic) unknown("--solver", settings.solver, solvers(), stochastic_solvers());
     bool const stored = solver && !settings.on_demand;
     double const size = patch_size(scene, settings);
+    // Rays are followed over mirrors where what they find is kept as it is.
+    bool const mirrors = stored && !solver->needs_matrix && settings.form_factors == "rays" &&
+                         settings.substructuring == 0 && std::ranges::any_of(scene.materials, is_mirror);
     auto const check_memory = [&](double patches) {
         refuse_if_too_large(patches, settings.wavelengths, stored ? method : nullptr, fineness_of(settings, *method),
-                            settings.memory_bytes);
+                            settings.memory_bytes, mirrors);
     };
     check_memory(expected_patches(scene, size));
     mesh_ = make_patches(scene, size);
     check_memory(static_cast<double>(mesh_.patch.size()));
     tracer_ = std::make_unique<PatchTracer>(mesh_);
     std::vector<double> const nm = evenly_spaced(range, settings.wavelengths);
-    system_ = patch_spectra(scene, mesh_, *tracer_, nm);
-    report_.remarks = approximations(scene, mesh_);
+    system_ = patch_spectra(scene, mesh_, *tracer_, nm, mirrors);
+    report_.remarks = approximations(scene, mesh_, mirrors);
     if (stored)
-        solve_stored(scene, nm, *method, *solver, settings);
+        solve_stored(scene, nm, *method, *solver, settings, mirrors);
     else
         refuse_white(scene, mesh_, system_);
     if (stochastic) solve_by_lines(settings, *stochastic);
@@ -105,12 +109,18 @@ SceneRadiosity::SceneRadiosity(Scene const& scene, WavelengthRange const& range,
 }
 
 void SceneRadiosity::solve_stored(Scene const& scene, std::vector<double> const& nm, FormFactorMethod const& method,
-                                  SolverEntry const& solver, Settings const& settings) {
-    if (method.compute) {
-        system_.form_factors = method.compute(mesh_, *tracer_, fineness_of(settings, method));
+                                  SolverEntry const& solver, Settings const& settings, bool mirrors) {
+    int const fineness = fineness_of(settings, method);
+    auto const describe_factors = [&] {
         report_.reciprocity_defect = reciprocity_defect(system_);
         report_.closure_defect = closure_defect(system_);
         say_what_leaks(scene);
+    };
+    if (mirrors) {
+        extend_form_factors(system_, mesh_, *tracer_, Mirrors(scene, mesh_, nm), fineness, describe_factors);
+    } else if (method.compute) {
+        system_.form_factors = method.compute(mesh_, *tracer_, fineness);
+        describe_factors();
         make_reciprocal(system_);
     } else {
         if (solver.needs_matrix)
@@ -120,7 +130,7 @@ void SceneRadiosity::solve_stored(Scene const& scene, std::vector<double> const&
                                          solver.name, method.name));
         auto const hierarchy = std::make_shared<Hierarchy>(
             mesh_, *tracer_, system_,
-            HierarchyLimits{settings.link_tolerance, fineness_of(settings, method),
+            HierarchyLimits{settings.link_tolerance, fineness,
                             settings.memory_bytes - memory_needed(static_cast<double>(mesh_.patch.size()),
                                                                   settings.wavelengths, nullptr, 0)});
         report_.links = hierarchy->links();
@@ -135,15 +145,33 @@ void SceneRadiosity::solve_stored(Scene const& scene, std::vector<double> const&
     report_.residual = solution.residual;
 }
 
+bool SceneRadiosity::sees_out(std::size_t patch) const {
+    constexpr std::uint32_t rays = 64;
+    Patch const& p = mesh_.patch[patch];
+    Frame const frame = Frame::around(p.normal.cast<float>());
+    for (std::uint32_t k = 0; k < rays; ++k) {
+        Sampler sampler(SamplerKind::sobol, 6, static_cast<std::uint32_t>(patch), k);
+        VectorDouble const from = point_on(mesh_, p, sampler.next2());
+        Direction const way = frame.to_world(to_cosine_hemisphere(sampler.next2()));
+        if (!tracer_->closest(from, p.normal, way.cast<double>())) return true;
+    }
+    return false;
+}
+
 // Rows that sum to less than 1 by more than their own error, when no environment is there to be seen.
 void SceneRadiosity::say_what_leaks(Scene const& scene) {
     if (!scene.lights.environments().empty()) return;
     constexpr double noticeable = 0.01;
-    Eigen::ArrayXd const sums = gathered(system_, Spectra::Ones(system_.patches(), 1)).col(0);
-    Eigen::Index worst;
-    double const lost = 1 - sums.minCoeff(&worst);
-    if (lost < noticeable) return;
-    double const area = (sums < 1 - noticeable).select(system_.area, 0.0).sum() / system_.area.sum();
+    Eigen::ArrayXd const sums = gathered_shares(system_, Spectra::Ones(system_.patches(), 1)).col(0);
+    // Not those that lie against another surface: what enters a dark body is no leak.
+    Eigen::Index worst = -1;
+    double lost = 0, area = 0;
+    for (Eigen::Index i = 0; i < sums.size(); ++i) {
+        if (sums[i] > 1 - noticeable || !sees_out(static_cast<std::size_t>(i))) continue;
+        area += system_.area[i] / system_.area.sum();
+        if (1 - sums[i] > lost) lost = 1 - sums[i], worst = i;
+    }
+    if (worst < 0) return;
     report_.remarks.push_back(fmt::format(
         "radiosity: the scene leaks: closure defect {:.2g} at {}; {:.2g} of the area sees out, and what leaves is lost",
         lost, describe(scene, mesh_, static_cast<std::size_t>(worst)), area));

@@ -57,8 +57,9 @@ class SceneRadiosity {
 
   private:
     void solve_stored(Scene const& scene, std::vector<double> const& nm, FormFactorMethod const& method,
-                      SolverEntry const& solver, Settings const& settings);
+                      SolverEntry const& solver, Settings const& settings, bool mirrors);
     void say_what_leaks(Scene const& scene);
+    bool sees_out(std::size_t patch) const;
     void solve_on_demand(FormFactorMethod const& method, Settings const& settings);
     void solve_by_lines(Settings const& settings, StochasticEntry const& entry);
     void substructure(Scene const& scene, std::vector<double> const& nm, FormFactorMethod const& method,
@@ -72,8 +73,8 @@ class SceneRadiosity {
     Report report_;
 };
 
-// Looks at a solution.
-std::unique_ptr<Integrator> show(std::shared_ptr<RadiosityField const> field);
+// Looks at a solution. `remarks`: what the user is told of it.
+std::unique_ptr<Integrator> show(std::shared_ptr<RadiosityField const> field, std::vector<std::string> remarks = {});
 
 std::unique_ptr<Integrator> make_radiosity(Scene const& scene, RenderPlan const& plan, IntegratorOptions& options);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The integrator that looks at a solution: the first patch along a camera ray, or the environment.
+// The integrator that looks at a solution: the first patch along a camera ray that is no mirror, or the environment.
+#include "integrators/radiosity/mirrors.h"
 #include "integrators/radiosity/radiosity.h"
 
 namespace iride::radiosity {
@@ -8,33 +9,55 @@ namespace {
 
 class Show final : public Integrator {
   public:
-    explicit Show(std::shared_ptr<RadiosityField const> field) : field_(std::move(field)) {}
+    Show(std::shared_ptr<RadiosityField const> field, std::vector<std::string> remarks)
+        : field_(std::move(field)), remarks_(std::move(remarks)) {}
+    std::vector<std::string> remarks() const override { return remarks_; }
     void follow(Scene const& scene, std::span<CameraPath> paths, RayStatistics& statistics) const override {
         statistics.closest_rays += paths.size();
-        for (CameraPath& path : paths) {
-            auto const hit = field_->tracer().closest(path.ray);
-            if (hit) {
-                path.radiance += field_->radiance(*hit, path.wavelengths);
-                continue;
-            }
-            for (int e : scene.lights.environments())
-                path.radiance += scene.lights.light(e).arriving(path.ray.direction, path.wavelengths);
-        }
+        for (CameraPath& path : paths) look(scene, path);
     }
 
   private:
+    void look(Scene const& scene, CameraPath& path) const {
+        PatchMesh const& mesh = field_->mesh();
+        Throughput weight(1);
+        VectorDouble way = path.ray.direction.cast<double>();
+        auto hit = field_->tracer().closest(path.ray);
+        for (int mirrors = 0; hit && hit->patch >= 0 && mirrors < most_mirrors; ++mirrors) {
+            Patch const& p = mesh.patch[static_cast<std::size_t>(hit->patch)];
+            Shape const& shape = *mesh.shape[static_cast<std::size_t>(p.shape)];
+            NamedMaterial const& m = scene.materials[static_cast<std::size_t>(shape.material)];
+            if (!is_mirror(m)) break;
+            if (shape.light >= 0)
+                path.radiance +=
+                    weight *
+                    scene.lights.light(shape.light).emitted(front_point(p), (-way).cast<float>(), path.wavelengths);
+            weight *= mirror_reflectance(*m.material, -way.dot(p.normal), path.wavelengths);
+            way = mirrored(way, p.normal);
+            hit = field_->tracer().closest(hit->position, p.normal, way);
+        }
+        if (hit) {
+            path.radiance += weight * field_->radiance(*hit, path.wavelengths);
+            return;
+        }
+        for (int e : scene.lights.environments())
+            path.radiance += weight * scene.lights.light(e).arriving(way.cast<float>(), path.wavelengths);
+    }
+
     std::shared_ptr<RadiosityField const> field_;
+    std::vector<std::string> remarks_;
 };
 
 }  // namespace
 
-std::unique_ptr<Integrator> show(std::shared_ptr<RadiosityField const> field) {
-    return std::make_unique<Show>(std::move(field));
+std::unique_ptr<Integrator> show(std::shared_ptr<RadiosityField const> field, std::vector<std::string> remarks) {
+    return std::make_unique<Show>(std::move(field), std::move(remarks));
 }
 
 std::unique_ptr<Integrator> make_radiosity(Scene const& scene, RenderPlan const& plan, IntegratorOptions& options) {
     options.finish();
-    return show(SceneRadiosity(scene, plan.wavelengths, {}).field());
+    SceneRadiosity const solution(scene, plan.wavelengths, {});
+    return show(solution.field(), solution.report().remarks);
 }
 
 }  // namespace iride::radiosity

@@ -6,7 +6,11 @@
 namespace iride::radiosity {
 
 Spectra gathered(System const& system, Spectra const& b) {
-    if (system.transport) return system.transport->gather(b);
+    return system.transport ? system.transport->gather(b) : gathered_shares(system, b);
+}
+
+Spectra gathered_shares(System const& system, Spectra const& b) {
+    if (system.form_factors.nonZeros() == 0 && system.transport) return system.transport->gather(b);
     Spectra sums(b.rows(), b.cols());
     tbb::parallel_for(tbb::blocked_range<Eigen::Index>(0, b.rows(), 64), [&](auto const& range) {
         for (Eigen::Index i = range.begin(); i < range.end(); ++i) {
@@ -29,6 +33,7 @@ Row ambient(System const& system, Spectra const& unshot) {
 }
 
 double reciprocity_defect(System const& system) {
+    if (system.form_factors.nonZeros() == 0) return 0;
     FormFactors const power = system.area.matrix().asDiagonal() * system.form_factors;
     double const largest = power.coeffs().maxCoeff();
     FormFactors const difference = power - FormFactors(power.transpose());
@@ -36,7 +41,7 @@ double reciprocity_defect(System const& system) {
 }
 
 double closure_defect(System const& system) {
-    return (1 - gathered(system, Spectra::Ones(system.patches(), 1))).abs().maxCoeff();
+    return (1 - gathered_shares(system, Spectra::Ones(system.patches(), 1))).abs().maxCoeff();
 }
 
 }  // namespace iride::radiosity

@@ -16,16 +16,16 @@ using FormFactors = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 using Spectra = Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;  // [patch][wavelength]
 using Row = Eigen::Array<double, 1, Eigen::Dynamic>;                                    // [wavelength]
 
-// The product with F where F is not a matrix of its own.
+// The product with F where F is not a matrix of its own, or depends on the wavelength.
 class Transport {
   public:
     virtual ~Transport() = default;
-    virtual Spectra gather(Spectra const& b) const = 0;  // [patch][any number of columns]
+    virtual Spectra gather(Spectra const& b) const = 0;  // [patch][wavelength]
 };
 
 struct System {
     Eigen::ArrayXd area;       // [patch], m^2
-    FormFactors form_factors;  // [patch][patch]; empty where there is a transport
+    FormFactors form_factors;  // [patch][patch]; empty where a transport is all there is
     Spectra reflectance;       // 0 <= rho < 1
     Spectra emission;          // W m^-2 nm^-1
     std::shared_ptr<Transport const> transport = {};
@@ -36,6 +36,9 @@ struct System {
 
 // F b, row after row in parallel.
 Spectra gathered(System const& system, Spectra const& b);
+
+// The same for any number of columns, as if mirrors lost nothing: shares of the light that does not leave the scene.
+Spectra gathered_shares(System const& system, Spectra const& b);
 
 // e - M b: what a radiosity still lacks. [W m^-2 nm^-1]
 Spectra residual(System const& system, Spectra const& b);
