@@ -81,7 +81,7 @@ TEST_CASE("a patch sees a ceiling by the formula and nothing below its horizon",
 }
 
 // A box cut into 3 x 2 pieces a face: the pieces touch along edges, at corners, and stand at every distance.
-TEST_CASE("contours close, reciprocate and add up, whatever touches", "[law]") {
+TEST_CASE("invariants 1, 2 and 5: contours close, reciprocate and add up, whatever touches", "[law]") {
     std::vector<Polygon> patches;
     for (Polygon const& face : box(1.5, 1, .7)) {
         VectorDouble const a = (face[1] - face[0]) / 3, b = (face[3] - face[0]) / 2;
@@ -103,7 +103,7 @@ TEST_CASE("contours close, reciprocate and add up, whatever touches", "[law]") {
     CHECK(near(parts, exchange_area(patches[0], whole), 1e-13));
 }
 
-TEST_CASE("motion and scale leave form factors alone", "[law]") {
+TEST_CASE("invariant 4: motion and scale leave form factors alone", "[law]") {
     std::vector<Polygon> const room = box(2, 2, 1);
     Eigen::Matrix3d const turn = Eigen::AngleAxisd(.7, VectorDouble(1, 2, -1).normalized()).toRotationMatrix();
     for (double scale : {1e-4, 1e5}) {

@@ -68,7 +68,7 @@ TEST_CASE("every method finds the form factors of the cube to its own error", "[
 }
 
 // A_j / (4 pi R^2). Facets make the sphere a little smaller, and hide neighbours from each other: those are left out.
-TEST_CASE("inside a sphere every patch sees every other by its area", "[law]") {
+TEST_CASE("invariant 6: inside a sphere every patch sees every other by its area", "[law]") {
     auto const scene = test::scene_from(inside_of_a_sphere);
     PatchMesh const mesh = make_patches(*scene, .35);
     PatchTracer const tracer(mesh);

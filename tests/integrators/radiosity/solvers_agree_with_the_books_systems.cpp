@@ -159,8 +159,8 @@ TEST_CASE("errors shrink at the listed rates", "[law]") {
     CHECK(of_cube.gauss_seidel < of_cube.jacobi);
 }
 
-// Invariant 11 and 12: rho and e constant give b = e / (1 - rho); e = (1 - rho) E gives b = E.
-TEST_CASE("a white furnace is uniform whatever its shape", "[law]") {
+// rho and e constant give b = e / (1 - rho); e = (1 - rho) E gives b = E.
+TEST_CASE("invariants 11 and 12: a white furnace is uniform whatever its shape", "[law]") {
     System room = cube(.200043776075403154, .199824895698387383);
     for (SolverEntry const& e : solvers()) {
         INFO(e.name);
@@ -174,8 +174,7 @@ TEST_CASE("a white furnace is uniform whatever its shape", "[law]") {
     }
 }
 
-// Invariant 10: what is emitted is absorbed.
-TEST_CASE("emitted power is absorbed power", "[law]") {
+TEST_CASE("invariant 10: emitted power is absorbed power", "[law]") {
     System const room = cube(.200043776075403154, .199824895698387383);
     Spectra const b = solve(room, entry("direct"), {}).radiosity;
     Spectra const H = (room.form_factors * b.matrix()).array();
@@ -185,9 +184,9 @@ TEST_CASE("emitted power is absorbed power", "[law]") {
     CHECK(closure_defect(room) < 1e-15);
 }
 
-// Invariant 16, constant reflectance in a closed scene: shot, unshot and ambient power together are the exact power at
+// Constant reflectance in a closed scene: shot, unshot and ambient power together are the exact power at
 // every step. Fails for the source's ambient term, which leaves the unshot power out.
-TEST_CASE("progressive refinement has the right total power from the first shot", "[law]") {
+TEST_CASE("invariant 16: progressive refinement has the right total power from the first shot", "[law]") {
     System room = cube(.200043776075403154, .199824895698387383);
     room.reflectance.setConstant(.5);
     double const exact = solve(room, entry("direct"), {}).radiosity.sum();
@@ -198,8 +197,8 @@ TEST_CASE("progressive refinement has the right total power from the first shot"
     }
 }
 
-// Invariants 7, 13, 15: nothing overshoots, gauss-seidel leads jacobi.
-TEST_CASE("iterates from darkness rise to the solution", "[law]") {
+// Nothing overshoots, gauss-seidel leads jacobi.
+TEST_CASE("invariant 13: iterates from darkness rise to the solution", "[law]") {
     System const room = cube(.2, .2);
     Spectra const exact = solve(room, entry("direct"), {}).radiosity;
     auto const jacobi = entry("jacobi").make(room), gauss = entry("gauss-seidel").make(room),
@@ -215,8 +214,8 @@ TEST_CASE("iterates from darkness rise to the solution", "[law]") {
     }
 }
 
-// Invariant 18: wavelengths are independent systems that share the factors.
-TEST_CASE("wavelengths solved together are wavelengths solved alone", "[law]") {
+// They are independent systems that share the factors.
+TEST_CASE("invariant 18: wavelengths solved together are wavelengths solved alone", "[law]") {
     System room = cube(.200043776075403154, .199824895698387383);
     room.reflectance.resize(6, 3);
     room.emission.resize(6, 3);

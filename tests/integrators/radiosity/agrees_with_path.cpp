@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// Radiosity of two shipped rooms against `path`: means of every band of wavelengths, and pixel by pixel.
+#include <catch2/catch.hpp>
+
+#include "integrators/radiosity/radiosity.h"
+#include "support/scenes.h"
+
+using namespace iride;
+using namespace iride::radiosity;
+
+namespace {
+
+constexpr int bands = 8;
+
+std::unique_ptr<Scene> small(char const* name, int side) {
+    auto scene = load_scene(find_scene(name));
+    scene->film.width = scene->film.height = side;
+    scene->film.band_count = bands;
+    scene->film.band_range = {400, 720};
+    return scene;
+}
+
+Film solved(Scene const& scene, Settings const& settings, int spp) {
+    RenderPlan const plan = make_plan(scene);
+    Film film = make_film(scene);
+    render(scene, plan, *show(SceneRadiosity(scene, plan.wavelengths, settings).field()), {.spp = spp}, film);
+    return film;
+}
+
+std::array<double, bands> means(Film const& film) {
+    std::array<double, bands> mean{};
+    for (int b = 0; b < bands; ++b)
+        for (int y = 0; y < film.height(); ++y)
+            for (int x = 0; x < film.width(); ++x)
+                mean[static_cast<std::size_t>(b)] += film.band(x, y, b) / (film.width() * film.height());
+    return mean;
+}
+
+}  // namespace
+
+// Fails when lamps emit b instead of b / pi, for factors that do not close, and for bands shifted by one.
+TEST_CASE("radiosity is as bright as path within half a per cent in every band", "[law]") {
+    for (auto const& [name, patches, spp] : {std::tuple("cube-ceiling", 1000, 400), {"room", 5000, 1600}}) {
+        auto const scene = small(name, 40);
+        auto const found = means(solved(*scene, {.patches = patches, .wavelengths = 20, .fineness = 512}, 64)),
+                   traced = means(test::rendered(*scene, "path", {.spp = spp}));
+        for (std::size_t b = 0; b < bands; ++b) {
+            INFO(name << ", band " << b);
+            CHECK(found[b] == Approx(traced[b]).epsilon(5e-3));
+        }
+    }
+}
+
+// What patches of this size cannot show is told by patches of half the size: where both agree, so must path.
+TEST_CASE("pixels of radiosity are those of path but for the size of patches", "[law]") {
+    auto const scene = small("cube-ceiling", 32);
+    Film const coarse = solved(*scene, {.patches = 600, .wavelengths = 12, .fineness = 1024}, 64),
+               fine = solved(*scene, {.patches = 2400, .wavelengths = 12, .fineness = 1024}, 64),
+               traced = test::rendered(*scene, "path", {.spp = 512, .sampler = SamplerKind::independent});
+    int beyond = 0;
+    for (int y = 0; y < fine.height(); ++y)
+        for (int x = 0; x < fine.width(); ++x) {
+            double const of_size = std::abs(fine.mean(x, y).Y - coarse.mean(x, y).Y),
+                         noise = std::sqrt(traced.variance(x, y).Y + fine.variance(x, y).Y);
+            beyond += std::abs(fine.mean(x, y).Y - traced.mean(x, y).Y) > 3.3 * noise + of_size;
+        }
+    CHECK(beyond <= 10);  // 1 expected of 1024
+}
