@@ -53,11 +53,11 @@ RTCGeometry make_geometry(RTCDevice device, Sphere const& s) {
 }
 
 RTCGeometry make_geometry(RTCDevice device, Quad const& q) {
-    RTCGeometry const g = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_QUAD);
+    RTCGeometry const g = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
     copy_vertices(g, q.corner.data(), 4);
     auto* const index = static_cast<std::uint32_t*>(
-        rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4, 4 * sizeof(std::uint32_t), 1));
-    for (std::uint32_t i = 0; i < 4; ++i) index[i] = i;
+        rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), 2));
+    std::ranges::copy(std::array<std::uint32_t, 6>{0, 1, 3, 2, 3, 1}, index);
     return g;
 }
 
@@ -90,6 +90,12 @@ void frustum_bounds(RTCBoundsFunctionArguments const* a) {
     *a->bounds_o = {low.x(), low.y(), low.z(), 0, high.x(), high.y(), high.z(), 0};
 }
 
+// Those of a hit; both triangles of a quad share the coordinates of its first.
+HitCoordinates coordinates(Shape const& shape, float u, float v, std::uint32_t primitive) {
+    if (primitive == 1 && std::holds_alternative<Quad>(shape.geometry)) return {1 - u, 1 - v, primitive};
+    return {u, v, primitive};
+}
+
 Ray lane_of(RTCRayN* rays, unsigned n, unsigned i) {
     return {{RTCRayN_org_x(rays, n, i), RTCRayN_org_y(rays, n, i), RTCRayN_org_z(rays, n, i)},
             {RTCRayN_dir_x(rays, n, i), RTCRayN_dir_y(rays, n, i), RTCRayN_dir_z(rays, n, i)},
@@ -102,8 +108,8 @@ void filter_by_alpha(RTCFilterFunctionNArguments const* a) {
     Shape const& shape = *static_cast<Shape const*>(a->geometryUserPtr);
     for (unsigned i = 0; i < a->N; ++i) {
         if (!a->valid[i]) continue;
-        HitCoordinates const at{RTCHitN_u(a->hit, a->N, i), RTCHitN_v(a->hit, a->N, i),
-                                RTCHitN_primID(a->hit, a->N, i)};
+        HitCoordinates const at =
+            coordinates(shape, RTCHitN_u(a->hit, a->N, i), RTCHitN_v(a->hit, a->N, i), RTCHitN_primID(a->hit, a->N, i));
         Ray const ray = lane_of(a->ray, a->N, i);
         if (!stops(shape, ray, ray.t_max, at)) a->valid[i] = 0;
     }
@@ -239,16 +245,15 @@ struct Accelerator::Implementation {
     void describe(ClosestQuery const& query, float distance, RTCHit const& embree_hit) const {
         Ray const& ray = *query.ray;
         Hit& hit = *query.hit;
-        HitCoordinates const at{embree_hit.u, embree_hit.v, embree_hit.primID};
         hit.distance = distance;
-        hit.primitive = at.primitive;
+        hit.primitive = embree_hit.primID;
         bool const in_instance = embree_hit.instID[0] != RTC_INVALID_GEOMETRY_ID;
         PlacedObject const* const placed = in_instance ? &instances[embree_hit.instID[0] - first_instance] : nullptr;
         hit.shape = placed ? &placed->object->shapes[embree_hit.geomID] : &(*shapes)[embree_hit.geomID];
+        HitCoordinates const at = coordinates(*hit.shape, embree_hit.u, embree_hit.v, embree_hit.primID);
         Vector on_ray = ray.origin + hit.distance * ray.direction;
         if (placed) on_ray = placed->to_object * on_ray;
         std::visit([&](auto const& g) { locate(g, on_ray, at, hit.point); }, hit.shape->geometry);
-        if (std::holds_alternative<Quad>(hit.shape->geometry)) hit.primitive = at.u + at.v <= 1 ? 0 : 1;
         if (hit.shape->parametrised) parametrise(hit.shape->geometry, at, hit.point);
         if (hit.shape->flipped) flip(hit.point);
         if (placed) place(*placed, hit);
