@@ -71,7 +71,7 @@ class TwoPass final : public Integrator, public SignedSamples {
             if (!sample) return;
             Direction const wi = here.frame.to_world(sample->wi);
             if (!here.is_consistent(wi, sample->wi)) return;
-            arrival = {sample->density, receiver(scene, *hit, here), mean(state.reach)};
+            arrival = {sample->density, receiver(scene, *hit, here.geometric_normal), mean(state.reach)};
             state.weight *= sample->weight;
             state.reach *= sample->reach;
             in = behind(scene, *hit, here, sample->wi, in);
@@ -120,7 +120,7 @@ class TwoPass final : public Integrator, public SignedSamples {
 
     Radiance from_lamps(DirectVertex const& v, float which, Sample2 place, float share,
                         RayStatistics& statistics) const {
-        auto const choice = selector_.choose(receiver(v.scene, v.hit, v.here), which);
+        auto const choice = selector_.choose(receiver(v.scene, v.hit, v.here.geometric_normal), which);
         if (choice.light < 0) return {};
         auto const light = v.scene.lights.light(choice.light).sample(v.hit.point.position, v.wavelengths, place);
         if (!light) return {};
