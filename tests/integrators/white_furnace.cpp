@@ -79,7 +79,9 @@ std::vector<Method> methods(bool many_photons) {
                             {"caustic-path", endless, false, false, true},
                             {"direct", 1},
                             {"recursive", 1},
-                            {"radiosity", endless, false, false}};
+                            {"radiosity", endless, false, false},
+                            {"directional-radiosity:patches=60", endless, false, false},
+                            {"two-pass:patches=100"}};
     if (many_photons)
         all.insert(all.end(), {{"photon-map:photons=1000000", endless, true},
                                {"progressive-photon:photons=400000", endless, true},
