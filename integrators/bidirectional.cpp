@@ -218,6 +218,7 @@ class Bidirectional final : public Integrator {
             walk.go_on(here, *sample, on, p_before);
         } else {
             walk.go_on_through_dirac(here, *sample, here.squared_index_ratio(scene, path.wavelengths, on));
+            if (!here.is_framed_alike(scene, path.wavelengths, on)) walk.far = Lanes();  // no light path comes this way
         }
         walk.state.weight *= sample->weight;
         path.ray = spawn_ray(here.point(), on);

@@ -172,7 +172,7 @@ bool scatter_light(Scene const& scene, Wavelengths const& wavelengths, Meeting c
         walk.state.weight *= Throughput(s.value.lane * scale);
         walk.go_on(here, *sample, on, Lanes(s.density.lane));
     } else {
-        if (!seen.is_consistent(on, sample->wi)) return false;
+        if (!seen.is_consistent(on, sample->wi) || !here.is_framed_alike(scene, wavelengths, on)) return false;
         Lanes const ratio = here.squared_index_ratio(scene, wavelengths, on);
         walk.state.weight *= sample->weight * ratio * here.adjoint_of_dirac(on);
         walk.go_on_through_dirac(here, *sample, ratio);

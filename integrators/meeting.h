@@ -73,6 +73,15 @@ class Meeting {
     float adjoint_of_dirac(Direction const& v) const {
         return flat_ ? 1 : shading_adjoint(back_, v, seen_.frame.normal, hit_.point.geometric_normal);
     }
+    // Whether a path from v meets the frame that one from `back` does. Shading normals seen from behind are replaced
+    // (integrators/scattering.h): a Dirac lobe then sends the two along different ways.
+    bool is_framed_alike(Scene const& scene, Wavelengths const& wavelengths, Direction const& v) const {
+        if (flat_) return true;
+        std::optional<Surroundings> const in = beside(scene, v);
+        Interaction const other(scene, described(hit_, v, hit_.point.choice), v, wavelengths, in ? &*in : nullptr);
+        constexpr float same = 1 - 1e-5f;  // cosine, of unit vectors after rounding
+        return std::abs(other.frame.normal.dot(seen_.frame.normal)) > same;
+    }
     // (n_v / n_back)^2.
     Lanes squared_index_ratio(Scene const& scene, Wavelengths const& wavelengths, Direction const& v) const {
         Body const* const body = body_at(scene, hit_);

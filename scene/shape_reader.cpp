@@ -257,7 +257,11 @@ void read_shape(SceneBuilder& b, JsonValue const& value, std::string const& path
         f.error_at("emission", "a lamp has no holes: its material has 'alpha'");
     for (ShapeGeometry& g : geometries) {
         if (moved) apply_transform(b, f, transform, g);
-        Shape shape{.geometry = std::move(g), .material = material, .flipped = flipped, .name = name};
+        Shape& shape = shapes.emplace_back();
+        shape.geometry = std::move(g);
+        shape.material = material;
+        shape.flipped = flipped;
+        shape.name = name;
         if (emission && !(surface_area(shape.geometry) > 0)) {
             f.error_at("emission", "this emitter has no area");
         } else if (emission) {
@@ -267,7 +271,6 @@ void read_shape(SceneBuilder& b, JsonValue const& value, std::string const& path
                                     emission->radiance, luminance);
             b.scene.light_descriptions[static_cast<std::size_t>(shape.light)].group = emission->group;
         }
-        shapes.push_back(std::move(shape));
     }
     f.finish();
 }

@@ -37,7 +37,7 @@ PlaneReach::PlaneReach(Scene const& scene) {
     take(scene.shapes, 1);
     for (InstancePlacement const& placed : scene.instances)
         take(scene.objects[static_cast<std::size_t>(placed.object)].shapes,
-             placed.to_world.linear().colwise().norm().minCoeff());
+             static_cast<float>(placed.to_world.linear().colwise().norm().minCoeff()));
 }
 
 }  // namespace iride

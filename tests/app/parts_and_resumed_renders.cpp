@@ -153,7 +153,10 @@ TEST_CASE("a disk that fills up loses nothing that was saved", "[app]") {
         return test::run_command("unshare -rm bash -c 'mount -t tmpfs -o size=256k none " + at("small") + " && { " +
                                  commands + "; }'");
     };
-    if (on_small_disk("true").code != 0) return WARN("no file system can be mounted here");
+    if (on_small_disk("true").code != 0) {
+        WARN("no file system can be mounted here");
+        return;
+    }
     REQUIRE(at.render("--spp 16", "whole.exr").code == 0);
     std::string const render = IRIDE_PROGRAM " render cornell --size 48x40 --quiet --checkpoint " + at("small/c");
     auto const r = on_small_disk(render + " --spp 8 -o " + at("p.exr") + " && cp " + at("small/c") + " " +
