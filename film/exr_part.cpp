@@ -103,10 +103,18 @@ void fill(Film& film, XyzPicture const& picture, Facts const& facts) {
         for (std::size_t b = 0; b < bands; ++b)
             film.band_sums()[i * bands + b] = count * static_cast<double>(picture.bands[b].second.pixel[i]);
     }
-    // The file says how many samples were rejected, not where.
-    for (std::size_t cause = 0; cause < rejection_names.size(); ++cause)
-        film.pixels().front().rejected[cause] =
-            facts.number<std::uint32_t>(fmt::format("rejected.{}", rejection_names[cause]));
+    // The file says how many samples were rejected for which cause, not where: in pixels that miss as many.
+    auto pixel = film.pixels().begin();
+    for (std::size_t cause = 0; cause < rejection_names.size(); ++cause) {
+        auto left = facts.number<std::uint32_t>(fmt::format("rejected.{}", rejection_names[cause]));
+        for (; left > 0 && pixel != film.pixels().end(); pixel += left > 0 ? 1 : 0) {
+            auto const missing = static_cast<std::uint32_t>(std::max(0.0, of_all - pixel->taken()));
+            std::uint32_t const here = std::min(left, missing);
+            pixel->rejected[cause] += here;
+            left -= here;
+        }
+        film.pixels().front().rejected[cause] += left;
+    }
 }
 
 }  // namespace

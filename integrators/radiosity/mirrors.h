@@ -4,8 +4,8 @@
 // extended form factors; these depend on the wavelength,
 //   F_ij(lambda) = F_ij (1 - l_ij(lambda)),
 // F_ij the share of i's light that comes to j directly or by any chain of mirrors that would lose nothing, l_ij the
-// mean share lost on the way: one matrix and, only for pairs that see each other by mirrors, a spectrum each. [Sillion
-// 1989]
+// mean share lost on the way: one matrix and, only for pairs that see each other by mirrors, a spectrum each.
+// [Sillion 1989]
 #pragma once
 
 #include <functional>

@@ -163,11 +163,11 @@ TEST_CASE("layers that a scene cannot give, and groups that are no names, are re
     CHECK(refusal(groups, grouped) == "(accepted)");
     CHECK(refusal(groups, grouped, "auto") == "(accepted)");  // which is path here
     CHECK_THAT(refusal(R"("aovs": ["dept", "depth", "grops"])", ""),
-               Contains("scene.json:2:22: film.aovs[0]: unknown layer 'dept'; did you mean 'depth'?") &&
+               Contains("scene.json:2:20: film.aovs[0]: unknown layer 'dept'; did you mean 'depth'?") &&
                    Contains("film.aovs[2]: unknown layer 'grops'; did you mean 'groups'?"));
     CHECK_THAT(refusal(R"("aovs": "depth")", ""),
                Contains("film.aovs: found") && Contains("but an array of names is wanted"));
-    CHECK_THAT(refusal(R"("aovs": [1])", ""), Contains("film.aovs[0]: found 1, but a name is wanted"));
+    CHECK_THAT(refusal(R"("aovs": [1])", ""), Contains("film.aovs[0]: found the number 1, but a name is wanted"));
     CHECK_THAT(refusal(groups, ""), Contains("the layer 'groups' wants lights that have a 'group'"));
     CHECK_THAT(
         refusal(groups, grouped, "bidirectional"),
