@@ -168,7 +168,7 @@ PatchTracer::PatchTracer(PatchMesh const& mesh) {
             sides_.push_back({static_cast<int>(i), p.opposite});
         }
     }
-    shapes_.push_back({MeshShape{triangles, false}});
+    shapes_.emplace_back().geometry = MeshShape{triangles, false};
     accelerator_ =
         std::make_unique<Accelerator>(shapes_, std::vector<ObjectGeometry>{}, std::vector<InstancePlacement>{});
     constexpr double relative = 1e-5;  // of the scene: a hundred units in the last place of its coordinates
