@@ -30,13 +30,9 @@ std::string with_targets() {
 
 void check_agreement(std::string const& text, std::string const& oracle, int spp, int oracle_spp) {
     auto const scene = scene_from(text);
-    for (char const* integrator : {"caustic-path", "caustic-path:light_paths=1"}) {
-        INFO(integrator << " against " << oracle);
-        Film const fast = rendered(*scene, integrator, {.spp = spp, .seed = 15, .sampler = SamplerKind::independent});
-        Film const slow =
-            rendered(*scene, oracle, {.spp = oracle_spp, .seed = 16, .sampler = SamplerKind::independent});
-        check_films_agree(fast, slow);
-    }
+    for (char const* integrator : {"caustic-path", "caustic-path:light_paths=1"})
+        test::check_agreement(*scene,
+                              {.integrator = integrator, .oracle = oracle, .spp = spp, .oracle_spp = oracle_spp});
 }
 
 }  // namespace

@@ -9,31 +9,15 @@ using namespace iride::test;
 
 namespace {
 
-struct Trial {
-    std::string integrator = "bidirectional", oracle = "reference_path";
-    int spp = 1500, oracle_spp = 12000;
-};
-
-void check_agreement(Scene const& scene, Trial const& t = {}) {
-    INFO(t.integrator << " against " << t.oracle);
-    Film const fast = rendered(scene, t.integrator, {.spp = t.spp, .seed = 15, .sampler = SamplerKind::independent});
-    Film const slow = rendered(scene, t.oracle, {.spp = t.oracle_spp, .seed = 16, .sampler = SamplerKind::independent});
-    check_films_agree(fast, slow);
-}
-void check_agreement(std::string const& text, Trial const& t = {}) { check_agreement(*scene_from(text), t); }
+void check_agreement(std::string const& text, Trial const& t = {}) { test::check_agreement(*scene_from(text), t); }
 
 std::string const dispersive_glass = R"({ "type": "dielectric", "ior": { "pairs": [[300, 2.0], [900, 1.4]] } })";
 std::string const back_wall =
     R"({ "type": "quad", "corners": [[-3,0,2],[-3,4,2],[3,4,2],[3,0,2]], "material": { "type": "diffuse", "reflectance": "cornell:red" } })";
 
-// A scene with an octahedron whose vertex normals are a ball's: they lean up to 55 degrees from its faces.
 std::unique_ptr<Scene> with_faceted_ball(std::string const& material) {
     TemporaryFolder const folder;
-    folder.write("ball.obj",
-                 "v 0 1.4 0\nv .7 .7 0\nv 0 .7 .7\nv -.7 .7 0\nv 0 .7 -.7\nv 0 0 0\n"
-                 "vn 0 1 0\nvn 1 0 0\nvn 0 0 1\nvn -1 0 0\nvn 0 0 -1\nvn 0 -1 0\n"
-                 "f 1//1 3//3 2//2\nf 1//1 4//4 3//3\nf 1//1 5//5 4//4\nf 1//1 2//2 5//5\n"
-                 "f 6//6 2//2 3//3\nf 6//6 3//3 4//4\nf 6//6 4//4 5//5\nf 6//6 5//5 2//2\n");
+    folder.write("ball.obj", faceted_ball);
     return load_scene(folder.write(
         "scene.json",
         scene_text(view, R"("shapes": [)" + floor_quad + "," + back_wall + "," + big_lamp_sphere +

@@ -10,19 +10,10 @@ using namespace iride::test;
 
 namespace {
 
-struct Trial {
-    std::string integrator = "bidirectional", oracle = "reference_path";
-    int spp = 1500, oracle_spp = 12000;
-};
-
 void check_agreement(std::string const& text, Trial const& t = {}) {
     auto const scene = scene_from(text);
     CHECK(make_plan(*scene).media);
-    INFO(t.integrator << " against " << t.oracle);
-    Film const fast = rendered(*scene, t.integrator, {.spp = t.spp, .seed = 25, .sampler = SamplerKind::independent});
-    Film const slow =
-        rendered(*scene, t.oracle, {.spp = t.oracle_spp, .seed = 26, .sampler = SamplerKind::independent});
-    check_films_agree(fast, slow);
+    test::check_agreement(*scene, t, 25);
 }
 
 std::string const wine =

@@ -30,13 +30,13 @@ std::string shapes(std::vector<std::string> const& all) {
 std::string const facets =
     R"({ "type": "mesh", "file": "ball.obj", "material": { "type": "dielectric", "ior": 1.5 } })";
 
-struct Trial {
+struct SceneTrial {
     char const* scene;  // shipped, or a name for `text`
     std::string text;
     std::vector<char const*> integrators;  // against the first
 };
 
-std::vector<Trial> const trials{
+std::vector<SceneTrial> const trials{
     {"glass-spheres", "", {"bidirectional", "path", "bidirectional-power", "auto"}},
     {"prism", "", {"path", "reference_path", "bidirectional", "auto"}},
     {"three lamps of different power",
@@ -56,18 +56,14 @@ std::vector<Trial> const trials{
      shapes({floor_quad, back_wall, quad_lamp(0.5, 6), facets}),
      {"bidirectional", "path", "bidirectional-power"}}};
 
-std::unique_ptr<Scene> scene_of(Trial const& trial) {
+std::unique_ptr<Scene> scene_of(SceneTrial const& trial) {
     if (trial.text.empty()) {
         auto scene = load_scene(find_scene(trial.scene));
         scene->film.width = scene->film.height = 12;
         return scene;
     }
     TemporaryFolder const folder;
-    folder.write("ball.obj",
-                 "v 0 1.4 0\nv .7 .7 0\nv 0 .7 .7\nv -.7 .7 0\nv 0 .7 -.7\nv 0 0 0\n"
-                 "vn 0 1 0\nvn 1 0 0\nvn 0 0 1\nvn -1 0 0\nvn 0 0 -1\nvn 0 -1 0\n"
-                 "f 1//1 3//3 2//2\nf 1//1 4//4 3//3\nf 1//1 5//5 4//4\nf 1//1 2//2 5//5\n"
-                 "f 6//6 2//2 3//3\nf 6//6 3//3 4//4\nf 6//6 4//4 5//5\nf 6//6 5//5 2//2\n");
+    folder.write("ball.obj", faceted_ball);
     return load_scene(folder.write("scene.json", scene_text(view, trial.text)));
 }
 
@@ -105,7 +101,7 @@ Picture picture(Scene const& scene, char const* integrator, int pictures, int sp
 
 double error_of(Moments const& m) { return std::sqrt(m.variance) / m.mean; }
 
-void check_agreement(Trial const& trial, int pictures, int spp, double margin, double error) {
+void check_agreement(SceneTrial const& trial, int pictures, int spp, double margin, double error) {
     auto const scene = scene_of(trial);
     Picture const oracle = picture(*scene, trial.integrators.front(), pictures, spp, 1);
     for (std::size_t i = 1; i < trial.integrators.size(); ++i) {
@@ -131,5 +127,5 @@ void check_agreement(Trial const& trial, int pictures, int spp, double margin, d
 }  // namespace
 
 TEST_CASE("unbiased integrators agree on six scenes", "[.long]") {
-    for (Trial const& trial : trials) check_agreement(trial, 64, 64, 0.01, 0.1);
+    for (SceneTrial const& trial : trials) check_agreement(trial, 64, 64, 0.01, 0.1);
 }

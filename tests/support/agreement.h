@@ -66,4 +66,25 @@ inline void check_films_agree(Film const& fast, Film const& slow) {
     }
 }
 
+struct Trial {
+    std::string integrator = "bidirectional", oracle = "reference_path";
+    int spp = 1500, oracle_spp = 12000;
+};
+
+// Independent samples; of the integrator by `seed`, of the oracle by the next.
+inline void check_agreement(Scene const& scene, Trial const& t = {}, std::uint64_t seed = 15) {
+    INFO(t.integrator << " against " << t.oracle);
+    Film const fast = rendered(scene, t.integrator, {.spp = t.spp, .seed = seed, .sampler = SamplerKind::independent});
+    Film const slow =
+        rendered(scene, t.oracle, {.spp = t.oracle_spp, .seed = seed + 1, .sampler = SamplerKind::independent});
+    check_films_agree(fast, slow);
+}
+
+// An octahedron, as OBJ, whose vertex normals are a ball's: they lean up to 55 degrees from its faces.
+inline std::string const faceted_ball =
+    "v 0 1.4 0\nv .7 .7 0\nv 0 .7 .7\nv -.7 .7 0\nv 0 .7 -.7\nv 0 0 0\n"
+    "vn 0 1 0\nvn 1 0 0\nvn 0 0 1\nvn -1 0 0\nvn 0 0 -1\nvn 0 -1 0\n"
+    "f 1//1 3//3 2//2\nf 1//1 4//4 3//3\nf 1//1 5//5 4//4\nf 1//1 2//2 5//5\n"
+    "f 6//6 2//2 3//3\nf 6//6 3//3 4//4\nf 6//6 4//4 5//5\nf 6//6 5//5 2//2\n";
+
 }  // namespace iride::test
