@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <charconv>
 #include <cstring>
 #include <fstream>
 #include <map>
 
 #include "base/atomic_file.h"
 #include "base/diagnostics.h"
+#include "base/numbers_in_text.h"
 #include "base/random.h"
 #include "film/film.h"
 
@@ -111,19 +111,9 @@ class Head {
     }
     template <class Number>
     std::vector<Number> numbers(std::string const& key, std::size_t count) const {
-        std::string const& value = (*this)[key];
-        std::vector<Number> all;
-        char const *at = value.data(), *const end = at + value.size();
-        while (all.size() < count) {
-            Number number{};
-            auto const [next, error] = std::from_chars(at, end, number);
-            if (error != std::errc()) damaged();
-            all.push_back(number);
-            at = next;
-            if (at != end) ++at;
-        }
-        if (at != end) damaged();
-        return all;
+        auto all = numbers_in<Number>((*this)[key], count);
+        if (!all) damaged();
+        return std::move(*all);
     }
     template <class Number>
     Number number(std::string const& key) const {

@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "base/diagnostics.h"
+#include "base/numbers_in_text.h"
 
 namespace iride {
 
@@ -29,19 +29,11 @@ class Facts {
     template <class Number>
     std::vector<Number> numbers(std::string const& key, std::size_t count) const {
         std::string const& value = text(key);
-        std::vector<Number> all;
-        char const *at = value.data(), *const end = at + value.size();
-        while (all.size() < count) {
-            Number number{};
-            auto const [next, error] = std::from_chars(at, end, number);
-            if (error != std::errc()) break;
-            all.push_back(number);
-            at = next == end ? end : next + 1;
-        }
-        if (all.size() != count || at != end)
+        auto all = numbers_in<Number>(value, count);
+        if (!all)
             refuse(fmt::format("its attribute 'iride:{}' is '{}', allowed: {}", key, value,
                                count == 1 ? "a number" : fmt::format("{} numbers", count)));
-        return all;
+        return std::move(*all);
     }
     template <class Number>
     Number number(std::string const& key) const {
