@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "integrators/arrival.h"
 #include "integrators/flight.h"
 
 namespace iride {
@@ -48,13 +49,6 @@ struct VertexNumbers {
     Sample2 chances;  // x: roulette, y: which part of a mixture
 };
 
-// How the ray at hand was chosen: what light sampling from there would have had to compete with.
-struct Arrival {
-    std::optional<PerSteradian> density;  // p_hero; absent from the camera and after a Dirac lobe
-    LightReceiver from{};
-    float mean_reach_before = 1;
-};
-
 // What the lamps bring to a batch if nothing stands between, and the rays that tell.
 struct Shadows {
     std::array<ShadowQuery, batch_size> query;
@@ -96,9 +90,8 @@ struct Walk {
     VertexNumbers numbers;
     bool has_hit;
     Hit hit;
-    LightSample const* light;  // that of the lamp asked; null: none
-    float light_probability;   // with which that lamp was chosen
-    int light_number;
+    LightSample const* light;      // that of the lamp asked; null: none
+    LightSelector::Choice choice;  // of that lamp
     [[no_unique_address]] std::conditional_t<Media, Surroundings, NotCarried> in;
     [[no_unique_address]] std::conditional_t<Scattering, std::optional<Afloat>, NotCarried> afloat;
 
@@ -295,8 +288,7 @@ class Path final : public Integrator {
         for (std::size_t k = 0; k < count; ++k) {
             Walk& walk = walks[asking[k].walk];
             walk.light = requests[k].sample ? &*requests[k].sample : nullptr;
-            walk.light_probability = asking[k].choice.probability;
-            walk.light_number = asking[k].choice.light;
+            walk.choice = asking[k].choice;
         }
     }
 
@@ -309,20 +301,20 @@ class Path final : public Integrator {
         if (is_black(f.value) || !here.is_consistent(light.wi, wi)) return;
         // In units of a steradian: a density for lights of extent, the Dirac's own measure for the others.
         float const cosine = std::abs(wi.z());
-        Lanes competitors(walk.light_probability);
+        Lanes competitors(walk.choice.probability);
         if (light.density) {
             Lanes found(f.density.lane);
             if constexpr (Scattering)
                 found *= passing_probability(behind(scene, walk.hit, here, wi, walk.in).medium(), light.distance,
                                              path.wavelengths);
-            competitors = Lanes(found.lane + walk.light_probability * light.density->value);
+            competitors = Lanes(found.lane + walk.choice.probability * light.density->value);
         }
         float const divisor = Dispersive ? float(mean(walk.state.reach * competitors)) : competitors[0];
         Lanes scattered(f.value.lane * (cosine / divisor));
         if constexpr (Media)
             scattered *=
                 behind(scene, walk.hit, here, wi, walk.in).medium().transmittance(light.distance, path.wavelengths);
-        shadows.add(path, walk.light_number, walk.state.weight * scattered * light.radiance,
+        shadows.add(path, walk.choice.light, walk.state.weight * scattered * light.radiance,
                     spawn_shadow_ray(walk.hit.point, light.wi, light.distance));
     }
 
@@ -333,12 +325,12 @@ class Path final : public Integrator {
             LightSample const& light = *walk.light;
             Medium const& medium = walk.in.medium();
             float const phase = HenyeyGreenstein(medium.asymmetry, path.ray.direction).density(light.wi).value;
-            Lanes competitors(walk.light_probability);
+            Lanes competitors(walk.choice.probability);
             if (light.density)
                 competitors = passing_probability(medium, light.distance, path.wavelengths) * phase +
-                              Lanes(walk.light_probability * light.density->value);
+                              Lanes(walk.choice.probability * light.density->value);
             Throughput const seen = walk.state.weight * medium.transmittance(light.distance, path.wavelengths);
-            shadows.add(path, walk.light_number,
+            shadows.add(path, walk.choice.light,
                         seen * light.radiance * (phase / float(mean(walk.state.reach * competitors))),
                         shadow_ray(walk.place(), light.wi, light.distance));
         }

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "integrators/arrival.h"
 #include "integrators/media.h"
 #include "integrators/photon/photon_cache.h"
 #include "integrators/photon/radiosity_cache.h"
@@ -41,39 +42,6 @@ class PhotonIntegrator final : public Integrator {
         return radiosity_ ? static_cast<RadianceCache const&>(*radiosity_) : photons_;
     }
 
-    // How the ray at hand was chosen.
-    struct Arrival {
-        bool lamps_are_seen = true;      // false: the last vertex has gathered them
-        std::optional<float> density{};  // p_hero of a narrow direction; absent: light samples do not compete
-        float mean_reach_before = 1;
-        Vector from{0, 0, 0};
-    };
-
-    // What lamps bring along the path where its ray ends.
-    static Radiance from_lamps(Scene const& scene, Ray const& ray, Hit const* hit, Wavelengths const& wavelengths,
-                               PathState const& state, Arrival const& arrival) {
-        if (!arrival.lamps_are_seen) return {};
-        LightSet const& lights = scene.lights;
-        auto const weighed = [&](Radiance const& Le, int light, auto&& density) {
-            if (is_black(Le)) return Radiance();
-            float divisor = mean(state.reach);
-            if (arrival.density)
-                divisor += arrival.mean_reach_before * lights.probability(light) * density().value / *arrival.density;
-            return state.weight * Le * (1 / divisor);
-        };
-        if (hit) {
-            int const light = hit->shape->light;
-            if (light < 0) return {};
-            return weighed(emitted_at(scene, *hit, ray, wavelengths), light,
-                           [&] { return lights.light(light).density(arrival.from, hit->point, hit->primitive); });
-        }
-        Radiance L;
-        for (int e : lights.environments())
-            L += weighed(lights.light(e).arriving(ray.direction, wavelengths), e,
-                         [&] { return lights.light(e).arriving_density(ray.direction); });
-        return L;
-    }
-
     void follow_one(Scene const& scene, CameraPath& path, RayStatistics& statistics) const {
         Sampler& sampler = path.sampler;
         int const packet = photons_.packets().choose(sampler.next());
@@ -82,10 +50,12 @@ class PhotonIntegrator final : public Integrator {
         Surroundings in = camera_in_ ? *camera_in_ : surroundings_at(scene, ray.origin);
         PathState state;
         Arrival arrival;
-        bool gathering = gathers_;
+        bool gathering = gathers_, lamps_are_seen = true;  // false: the last vertex has gathered them
         for (int bounce = 0;; ++bounce) {
-            auto const meet = [&](Hit const* hit) {
-                path.radiance += from_lamps(scene, ray, hit, wavelengths, state, arrival);
+            auto const meet = [&](Hit const* met) {
+                if (lamps_are_seen)
+                    path.radiance += lamps_met(scene, ray, met, wavelengths, state, arrival,
+                                               [&](int light) { return scene.lights.probability(light); });
             };
             std::optional<Hit> hit;
             if (!reach_surface(scene, wavelengths, ray, in, state.weight, hit, statistics, [&](Hit const& passed) {
@@ -117,7 +87,7 @@ class PhotonIntegrator final : public Integrator {
             if (!sample) return;
             Direction const wi = here.frame.to_world(sample->wi);
             if (!here.is_consistent(wi, sample->wi)) return;
-            if (!goes_on(*sample, state, hit->point.position, gathering, arrival)) return;
+            if (!goes_on(*sample, state, hit->point.position, gathering, lamps_are_seen, arrival)) return;
             state.weight *= sample->weight;
             state.reach *= sample->reach;
             in = behind(scene, *hit, here, sample->wi, in);
@@ -128,15 +98,15 @@ class PhotonIntegrator final : public Integrator {
 
     // False where what comes from that direction has been gathered.
     bool goes_on(BsdfSample const& sample, PathState const& state, Vector const& from, bool& gathering,
-                 Arrival& arrival) const {
+                 bool& lamps_are_seen, Arrival& arrival) const {
         arrival.density.reset();
         if (!sample.density) return true;
-        float const density = sample.density->value;
-        if (narrow_.holds(density * mean(sample.reach), std::abs(sample.wi.z()))) {
-            arrival = {true, density, mean(state.reach), from};
+        if (narrow_.holds(sample.density->value * mean(sample.reach), std::abs(sample.wi.z()))) {
+            arrival = {sample.density, {from}, mean(state.reach)};
+            lamps_are_seen = true;
             return gathering || !cache().has_narrow();
         }
-        arrival.lamps_are_seen = false;
+        lamps_are_seen = false;
         return std::exchange(gathering, false);
     }
 
