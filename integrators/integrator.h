@@ -36,6 +36,8 @@ class Integrator {
     virtual bool splats() const { return false; }
     // Whether pixels or their samples share light paths: then no pixel can have a number of samples of its own.
     virtual bool shares_light_paths() const { return splats(); }
+    // Whether single samples may be below 0, as those of a control variate are; of all others they are dropped.
+    virtual bool may_be_negative() const { return false; }
     // What the user is told before the first path, such as which light will be missing.
     virtual std::vector<std::string> remarks() const { return {}; }
 };

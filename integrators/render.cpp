@@ -12,7 +12,6 @@
 #include <cmath>
 
 #include "base/clock.h"
-#include "integrators/signed_samples.h"
 
 namespace iride {
 
@@ -36,7 +35,7 @@ class Batch {
         : scene_(scene),
           integrator_(integrator),
           splats_(integrator.splats()),
-          may_be_negative_(dynamic_cast<SignedSamples const*>(&integrator)),
+          may_be_negative_(integrator.may_be_negative()),
           starter_(starter),
           film_(film),
           groups_(groups),

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "integrators/radiosity/two_pass.h"
 
+#include "integrators/arrival.h"
 #include "integrators/direct_light.h"
 #include "integrators/radiosity/vertex_transfer.h"
-#include "integrators/signed_samples.h"
 
 namespace iride::radiosity {
 
@@ -11,14 +11,7 @@ namespace {
 
 constexpr int roulette_from = 2;  // scatterings before a chain of mirrors may end by chance
 
-// How the ray at hand was chosen.
-struct Arrival {
-    std::optional<PerSteradian> density;  // how often, times p_hero; absent from the camera and after a Dirac lobe
-    LightReceiver from{};
-    float mean_reach_before = 1;
-};
-
-class TwoPass final : public Integrator, public SignedSamples {
+class TwoPass final : public Integrator {
   public:
     TwoPass(Scene const& scene, RenderPlan const& plan, std::shared_ptr<RadiosityField const> reflected,
             TwoPassSettings const& settings)
@@ -32,6 +25,7 @@ class TwoPass final : public Integrator, public SignedSamples {
     void follow(Scene const& scene, std::span<CameraPath> paths, RayStatistics& statistics) const override {
         for (CameraPath& path : paths) follow_one(scene, path, statistics);
     }
+    bool may_be_negative() const override { return true; }
 
   private:
     void follow_one(Scene const& scene, CameraPath& path, RayStatistics& statistics) const {
@@ -43,16 +37,18 @@ class TwoPass final : public Integrator, public SignedSamples {
         bool first = true;  // no scattering other than by Dirac lobes so far
         for (int bounce = 0;; ++bounce) {
             std::optional<Hit> hit;
-            auto const meet = [&](Hit const& met) {
-                path.radiance += from_emitter(scene, met, ray, wavelengths, state, arrival);
+            auto const meet = [&](Hit const* met) {
+                path.radiance += lamps_met(scene, ray, met, wavelengths, state, arrival, [&](int light) {
+                    return light_sampling_ ? selector_.probability(arrival.from, light) : 0;
+                });
             };
             if (!reach_surface(scene, wavelengths, ray, in, state.weight, hit, statistics, [&](Hit const& passed) {
-                    meet(passed);
+                    meet(&passed);
                     arrival.density.reset();  // shadow rays end there
                 }))
                 return void(path.complete = false);
-            if (!hit) return void(path.radiance += from_environment(scene, ray, wavelengths, state, arrival));
-            meet(*hit);
+            meet(hit ? &*hit : nullptr);
+            if (!hit) return;
             if (bounce >= max_bounces_) return void(path.complete = max_bounces_ < longest_path);
 
             Sampler& sampler = path.sampler;
@@ -126,35 +122,6 @@ class TwoPass final : public Integrator, public SignedSamples {
         if (!light) return {};
         return from_lamp(
             v, *light, choice.probability, [&](LaneDensity const&, float) { return share; }, statistics);
-    }
-
-    // mean(next.reach) + mean(state.reach) p_light / p_hero.
-    float mixture(PathState const& state, Arrival const& arrival, int light, PerSteradian density) const {
-        float const reach = mean(state.reach);
-        if (!arrival.density || !light_sampling_) return reach;
-        return reach + arrival.mean_reach_before * selector_.probability(arrival.from, light) * density.value /
-                           arrival.density->value;
-    }
-
-    Radiance from_emitter(Scene const& scene, Hit const& hit, Ray const& ray, Wavelengths const& wavelengths,
-                          PathState const& state, Arrival const& arrival) const {
-        Radiance const Le = emitted_at(scene, hit, ray, wavelengths);
-        if (is_black(Le)) return {};
-        PerSteradian density{};
-        if (arrival.density)
-            density = scene.lights.light(hit.shape->light).density(arrival.from.position, hit.point, hit.primitive);
-        return state.weight * Le * (1 / mixture(state, arrival, hit.shape->light, density));
-    }
-
-    Radiance from_environment(Scene const& scene, Ray const& ray, Wavelengths const& wavelengths,
-                              PathState const& state, Arrival const& arrival) const {
-        Radiance L;
-        for (int e : scene.lights.environments()) {
-            Light const& light = scene.lights.light(e);
-            L += state.weight * light.arriving(ray.direction, wavelengths) *
-                 (1 / mixture(state, arrival, e, light.arriving_density(ray.direction)));
-        }
-        return L;
     }
 
     std::shared_ptr<RadiosityField const> known_;
