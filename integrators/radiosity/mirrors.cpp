@@ -40,14 +40,10 @@ class MirrorTransport final : public Transport {
     MirrorTransport(FormFactors factors, std::vector<std::vector<Lost>> lost)
         : factors_(std::move(factors)), lost_(std::move(lost)) {}
     Spectra gather(Spectra const& b) const override {
-        Spectra sums(b.rows(), b.cols());
-        tbb::parallel_for(tbb::blocked_range<Eigen::Index>(0, b.rows(), 64), [&](auto const& range) {
-            for (Eigen::Index i = range.begin(); i < range.end(); ++i) {
-                sums.row(i).setZero();
-                for (FormFactors::InnerIterator F(factors_, i); F; ++F) sums.row(i) += F.value() * b.row(F.col());
-                for (Lost const& l : lost_[static_cast<std::size_t>(i)])
-                    sums.row(i) -= l.power.transpose().cast<double>() * b.row(l.to);
-            }
+        Spectra sums = product(factors_, b);
+        tbb::parallel_for(Eigen::Index{0}, b.rows(), [&](Eigen::Index i) {
+            for (Lost const& l : lost_[static_cast<std::size_t>(i)])
+                sums.row(i) -= l.power.transpose().cast<double>() * b.row(l.to);
         });
         return sums;
     }

@@ -11,12 +11,15 @@ Spectra gathered(System const& system, Spectra const& b) {
 
 Spectra gathered_shares(System const& system, Spectra const& b) {
     if (system.form_factors.nonZeros() == 0 && system.transport) return system.transport->gather(b);
+    return product(system.form_factors, b);
+}
+
+Spectra product(FormFactors const& factors, Spectra const& b) {
     Spectra sums(b.rows(), b.cols());
     tbb::parallel_for(tbb::blocked_range<Eigen::Index>(0, b.rows(), 64), [&](auto const& range) {
         for (Eigen::Index i = range.begin(); i < range.end(); ++i) {
             sums.row(i).setZero();
-            for (FormFactors::InnerIterator F(system.form_factors, i); F; ++F)
-                sums.row(i) += F.value() * b.row(F.col());
+            for (FormFactors::InnerIterator F(factors, i); F; ++F) sums.row(i) += F.value() * b.row(F.col());
         }
     });
     return sums;

@@ -35,6 +35,8 @@ struct System {
 };
 
 // F b, row after row in parallel.
+Spectra product(FormFactors const& factors, Spectra const& b);
+// The same of the system's transport, if it has one.
 Spectra gathered(System const& system, Spectra const& b);
 
 // The same for any number of columns, as if mirrors lost nothing: shares of the light that does not leave the scene.
