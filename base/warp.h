@@ -47,6 +47,8 @@ inline Direction to_cone(Sample2 u, float height) {
     auto const [sine, cosine] = sine_cosine_of_turns(u.y);
     return {r * cosine, r * sine, 1 - below};
 }
+// That height from the squared sine of the half angle, without cancellation.
+inline float cone_height(float sine2) { return sine2 / (1 + std::sqrt(std::max(0.0f, 1 - sine2))); }
 inline PerSteradian cone_density(float height) { return PerSteradian(1 / (2 * pi * height)); }
 
 // Barycentric coordinates, uniform on a triangle. Density 1 / area. [Heitz 2019, low distortion]

@@ -11,8 +11,7 @@ namespace {
 constexpr std::size_t most_targets = 32;  // a density looks at all of them
 
 Ball ball_about(std::span<Vector const> points) {
-    Eigen::AlignedBox3f box;
-    for (Vector const& p : points) box.extend(p);
+    Eigen::AlignedBox3f const box = box_about(points);
     return {box.center(), box.diagonal().norm() / 2};
 }
 Ball ball_of(Sphere const& s) { return {s.centre, s.radius}; }
@@ -56,10 +55,10 @@ void gather(std::span<Ball> balls, std::size_t most, std::vector<Ball>& out) {
     }
 }
 
-// 1 - cos of the half angle of the cone from a place to a ball whose centre is at `distance`; 2 from inside.
-float cone_height(float distance2, float radius2) {
-    float const s2 = radius2 / distance2;
-    return s2 < 1 ? s2 / (1 + std::sqrt(1 - s2)) : 2;
+// Of the cone of directions that meet a ball, as in to_cone(); from inside: all.
+float height_of_cone(float distance2, float radius2) {
+    float const sine2 = radius2 / distance2;
+    return sine2 < 1 ? cone_height(sine2) : 2;
 }
 
 }  // namespace
@@ -96,19 +95,23 @@ std::vector<Ball> caustic_targets(Scene const& scene) {
 }
 
 AimedEmission::AimedEmission(Scene const& scene) : targets_(caustic_targets(scene)) {
+    auto const count = static_cast<int>(scene.lights.size());
     std::vector<double> lights;
-    for (int l = 0; l < static_cast<int>(scene.lights.size()); ++l) {
-        auto const bounds = scene.lights.light(l).bounds();
-        std::vector<double> shares;
-        LightClusters seen;
-        if (bounds) seen.set(0, *bounds);
-        if (bounds && scene.lights.probability(l) > 0)
-            for (Ball const& t : targets_)
-                shares.push_back(static_cast<double>(seen.importance({t.centre})[0] * square(t.radius)));
-        double sum = 0;
-        for (double s : shares) sum += s;
-        lights.push_back(sum);
-        of_light_.push_back(sum > 0 ? DiscreteDistribution(shares) : DiscreteDistribution());
+    for (int first = 0; first < count; first += real_lanes) {
+        int const together = std::min(real_lanes, count - first);
+        LightClusters lamps;  // those that cannot be aimed have no intensity
+        for (int i = 0; i < together; ++i)
+            if (auto const bounds = scene.lights.light(first + i).bounds())
+                if (scene.lights.probability(first + i) > 0) lamps.set(i, *bounds);
+        std::vector<Real8> shares;
+        for (Ball const& t : targets_) shares.push_back(lamps.importance({t.centre}) * square(t.radius));
+        for (int i = 0; i < together; ++i) {
+            std::vector<double> of_light;
+            double sum = 0;
+            for (Real8 const& share : shares) sum += of_light.emplace_back(static_cast<double>(share[i]));
+            lights.push_back(sum);
+            of_light_.push_back(sum > 0 ? DiscreteDistribution(of_light) : DiscreteDistribution());
+        }
     }
     if (std::ranges::any_of(lights, [](double w) { return w > 0; })) lights_ = DiscreteDistribution(lights);
     for (std::size_t t = 0; t < targets_.size(); ++t) {
@@ -134,7 +137,7 @@ float AimedEmission::direction_density(int light, Vector const& from, Direction 
         for (int i = 0; i < real_lanes; ++i) {
             int const t = static_cast<int>(first) * real_lanes + i;
             if (met[i] && t < choice.size())
-                density += choice.probability(t) * cone_density(cone_height(distance2[i], e.radius2[i])).value;
+                density += choice.probability(t) * cone_density(height_of_cone(distance2[i], e.radius2[i])).value;
         }
     }
     return density;
@@ -151,7 +154,7 @@ std::optional<LightStart> AimedEmission::start(Scene const& scene, Ball const& b
     auto const target = of_light_[static_cast<std::size_t>(chosen.index)].sample(chosen.rest);
     Ball const& at = targets_[static_cast<std::size_t>(target.index)];
     Vector const axis = at.centre - from;
-    float const distance2 = axis.squaredNorm(), height = cone_height(distance2, square(at.radius));
+    float const distance2 = axis.squaredNorm(), height = height_of_cone(distance2, square(at.radius));
     Frame const around = Frame::around(distance2 > 0 ? Direction(axis / std::sqrt(distance2)) : Direction(0, 0, 1));
     start->travel = around.to_world(to_cone(direction, height)).normalized();
     start->density.direction = PerSteradian(direction_density(chosen.index, from, start->travel));

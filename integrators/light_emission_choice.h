@@ -28,7 +28,7 @@ struct LampEmission {
 class AimedEmission {
   public:
     explicit AimedEmission(Scene const& scene);
-    // Whether there is a lamp that is no farther than its targets are from it, and a target.
+    // Whether some lamp of a place shines at a target.
     bool has_targets() const { return lights_.size() > 0; }
 
     std::optional<LightStart> start(Scene const& scene, Ball const& ball, Wavelengths const& wavelengths, float choice,

@@ -16,8 +16,7 @@ std::optional<Surroundings> common_surroundings(Scene const& scene, Light const&
         Sample2 const place = numbers.next2();
         auto const e = light.emit(ball, wavelengths, place, numbers.next2());
         if (!e) continue;
-        Surroundings const here = surroundings_at(
-            scene, light.extent() == LightExtent::area ? spawn_ray(e->from, e->travel).origin : e->from.position);
+        Surroundings const here = surroundings_at(scene, leaving_ray(light, *e).origin);
         if (!first) first = here;
         if (!(here == *first)) return std::nullopt;
     }

@@ -10,6 +10,11 @@
 
 namespace iride {
 
+// The ray that a light sends.
+inline Ray leaving_ray(Light const& light, EmissionSample const& e) {
+    return light.extent() == LightExtent::area ? spawn_ray(e.from, e.travel) : Ray{e.from.position, e.travel};
+}
+
 class LightSurroundings {
   public:
     LightSurroundings(Scene const& scene, RenderPlan const& plan);

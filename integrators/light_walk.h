@@ -96,8 +96,7 @@ void walk_from_light(Scene const& scene, TwoWayContext const& context, Emission 
     EmissionSample const& emitted = start->sample;
     Flux const flux = emitted.flux() * (1 / (start->probability * context.share));
     Subpath<Heuristic> walk;
-    Ray ray = light.extent() == LightExtent::area ? spawn_ray(emitted.from, emitted.travel)
-                                                  : Ray{emitted.from.position, emitted.travel};
+    Ray ray = leaving_ray(light, emitted);
     std::optional<Surroundings> in = context.lamps_in.at(scene, start->light, ray.origin);
     if (in) walk.state.weight *= LightSurroundings::left(light, *in, wavelengths);
     for (int number = 1; number <= context.max_bounces; ++number) {

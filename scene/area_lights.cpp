@@ -134,7 +134,7 @@ class SphereLight final : public AreaLight {
     std::optional<LightSample> sample(Vector const& from, Wavelengths const& wavelengths, Sample2 u) const override {
         if (!outside(from)) return sample_by_area(from, wavelengths, u);
         Vector const d = sphere_.centre - from;
-        float const distance = d.norm(), height = cone_height(from);
+        float const distance = d.norm(), height = height_of_cone(from);
         Direction const wi = Frame::around(d / distance).to_world(to_cone(u, height));
         // Where wi meets the sphere: the nearer of b -+ sqrt(r^2 - |across|^2).
         float const along = wi.dot(d);
@@ -154,7 +154,7 @@ class SphereLight final : public AreaLight {
         return bounds_of(centre - reach, centre + reach, {0, 0, 1}, pi_double, pi_double * square(r));
     }
     PerSteradian density(Vector const& from, SurfacePoint const& on, std::uint32_t) const override {
-        if (outside(from)) return cone_density(cone_height(from));
+        if (outside(from)) return cone_density(height_of_cone(from));
         return area_density(static_cast<float>(area_), from, on.position, on.geometric_normal);
     }
 
@@ -167,10 +167,8 @@ class SphereLight final : public AreaLight {
     bool outside(Vector const& from) const {
         return (from - sphere_.centre).squaredNorm() > square(sphere_.radius) * 1.0001f;
     }
-    // 1 - cos of the cone's half angle, without cancellation: s^2 / (1 + cos), s = r / d.
-    float cone_height(Vector const& from) const {
-        float const s2 = square(sphere_.radius) / (from - sphere_.centre).squaredNorm();
-        return s2 / (1 + std::sqrt(std::max(0.0f, 1 - s2)));
+    float height_of_cone(Vector const& from) const {
+        return cone_height(square(sphere_.radius) / (from - sphere_.centre).squaredNorm());
     }
     Sphere sphere_;
 };

@@ -15,11 +15,7 @@ float size_of(Frustum const& f) { return std::min(f.length(), 2 * std::max(f.rad
 float size_of(Quad const& q) {
     return std::min((q.corner[1] - q.corner[0]).norm(), (q.corner[3] - q.corner[0]).norm());
 }
-float size_of(MeshShape const& m) {
-    Eigen::AlignedBox3f box;
-    for (Vector const& p : m.mesh->position) box.extend(p);
-    return box.diagonal().norm();
-}
+float size_of(MeshShape const& m) { return box_about(m.mesh->position).diagonal().norm(); }
 
 float smallest_of(std::vector<Shape> const& shapes) {
     float smallest = infinity;

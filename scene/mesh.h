@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <vector>
 
 #include "base/vector.h"
@@ -18,6 +19,12 @@ struct Mesh {
     std::vector<std::array<std::uint32_t, 3>>
         triangle;  // [triangle] vertex numbers, counter-clockwise seen from the front
 };
+
+inline Eigen::AlignedBox3f box_about(std::span<Vector const> points) {
+    Eigen::AlignedBox3f box;
+    for (Vector const& p : points) box.extend(p);
+    return box;
+}
 
 // `origin`: the place in the file from which positions count here, taken off before they become floats.
 // Read .ply (ascii or binary, either byte order) or .obj; polygons are split into fans, OBJ's separate normal and

@@ -35,8 +35,7 @@ class PhotonWalk {
         if (!emitted) return;
         Flux const flux = emitted->flux() * (1 / (choice.probability * static_cast<float>(shot_.photons)));
         if (is_black(flux)) return;
-        Ray ray = light.extent() == LightExtent::area ? spawn_ray(emitted->from, emitted->travel)
-                                                      : Ray{emitted->from.position, emitted->travel};
+        Ray ray = leaving_ray(light, *emitted);
         Surroundings in = shot_.lamps_in.at(scene_, choice.index, ray.origin).value_or(Surroundings());
         PathState state;
         state.weight = LightSurroundings::left(light, in, wavelengths);

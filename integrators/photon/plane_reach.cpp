@@ -15,9 +15,7 @@ struct HalfWidth {
     }
     // Of a box around it the middle one of three sides: of a plane the shorter one.
     float operator()(MeshShape const& m) const {
-        Eigen::AlignedBox3f box;
-        for (Vector const& p : m.mesh->position) box.extend(p);
-        Vector side = box.sizes();
+        Vector side = box_about(m.mesh->position).sizes();
         std::ranges::sort(side);
         return side.y() / 2;
     }
