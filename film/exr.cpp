@@ -166,9 +166,10 @@ void write_exr(Film const& film, ExrSettings const& settings, std::filesystem::p
     AtomicFile file(path);
     Imf::Header header = header_of(film, settings, space);
     std::vector<Plane> planes = planes_of(film, settings, space);
-    if (auto counts = plane_of_counts(film)) planes.push_back(std::move(*counts));
-    for (auto const& [name, value] : extra.channels)
-        if (planes.back().name != name) planes.push_back({name, Imf::FLOAT, value, {}});
+    for (auto const& [name, value] : extra.channels) planes.push_back({name, Imf::FLOAT, value, {}});
+    auto counts = plane_of_counts(film);
+    if (counts && std::ranges::find(planes, counts->name, &Plane::name) == planes.end())
+        planes.push_back(std::move(*counts));
     for (auto const& [name, value] : extra.attributes) header.insert(name, Imf::StringAttribute(value));
     Imf::FrameBuffer buffer;
     auto const width = static_cast<std::size_t>(film.width());
