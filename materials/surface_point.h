@@ -10,7 +10,7 @@ struct SurfacePoint {
     Vector position;
     Direction geometric_normal;  // on the front side of the shape
     Direction normal;            // for shading; on the front side too
-    float size = 0;  // [m] the position is at least as uncertain as a coordinate of this size; 0: not known
+    float size = 0;              // [m] the position is at least as uncertain as a coordinate of this size; 0: not known
 
     // Set only where the shape's material asks for it (MaterialTraits), see scene/parametrisation.h.
     Vector2 uv{0, 0};

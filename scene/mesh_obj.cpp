@@ -52,8 +52,8 @@ class ObjParser {
         Token const keyword = argument();
         if (keyword.text.empty()) return;
         if (keyword.text == "v") {
-            position_.push_back(
-                (vector("a vertex") - origin_).cast<float>());  // a weight or a colour may follow; neither is used
+            // A weight or a colour may follow; neither is used.
+            position_.push_back((vector("a vertex") - origin_).cast<float>());
         } else if (keyword.text == "vn") {
             normal();
         } else if (keyword.text == "vt") {

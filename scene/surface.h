@@ -28,8 +28,8 @@ inline void locate(Sphere const& s, Vector const& on_ray, HitCoordinates const&,
     point.size = s.radius;
 }
 inline void locate(Quad const& q, Vector const&, HitCoordinates const& hit, SurfacePoint& point) {
-    // A quad is traced as the triangles (0 1 3), of coordinates (u, v), and (2 3 1), of (1 - u, 1 - v). Which of them is
-    // as good as random: chosen without a branch.
+    // A quad is traced as the triangles (0 1 3), of coordinates (u, v), and (2 3 1), of (1 - u, 1 - v). Which of them
+    // is as good as random: chosen without a branch.
     bool const first = hit.u + hit.v <= 1;
     Vector const &a = q.corner[first ? 0 : 2], &b = q.corner[first ? 1 : 3], &c = q.corner[first ? 3 : 1];
     float const u = first ? hit.u : 1 - hit.u, v = first ? hit.v : 1 - hit.v;

@@ -93,8 +93,8 @@ TEST_CASE("citations and bibliography agree", "[architecture]") {
     folders.insert("tests");
     for (auto const& [path, text] : sources(folders)) cited.merge(citations(text));
     fs::path const root = IRIDE_SOURCE_DIR;
-    for (char const* page :
-         {"THIRD_PARTY.md", "docs/architecture.md", "docs/notation.md", "docs/materials.md", "scripts/hourglass.py", "data/README.md"})
+    for (char const* page : {"THIRD_PARTY.md", "docs/architecture.md", "docs/notation.md", "docs/materials.md",
+                             "scripts/hourglass.py", "data/README.md"})
         cited.merge(citations(content(root / page)));
     for (auto const& entry : fs::directory_iterator(root / "data/scenes"))
         if (entry.path().extension() == ".json") cited.merge(citations(content(entry.path())));

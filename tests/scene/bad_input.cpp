@@ -177,6 +177,7 @@ TEST_CASE("coatings that are none are refused", "[input]") {
     std::string many = layer("2", "5");
     for (int i = 1; i < 33; ++i) many += ", " + layer("2", "5");
     CHECK_THAT(coated("[" + many + "]"), Contains("found an array of 33, but an array of 1 .. 32 layers is wanted"));
-    CHECK_THAT(coated("[" + layer("1.5", "1e6") + "]"),
-               Contains("materials.a.coating: a film of optical thickness 1500 um is not coherent: allowed up to 100 um"));
+    CHECK_THAT(
+        coated("[" + layer("1.5", "1e6") + "]"),
+        Contains("materials.a.coating: a film of optical thickness 1500 um is not coherent: allowed up to 100 um"));
 }
