@@ -222,6 +222,7 @@ std::optional<ComplexIndex> read_complex_index(SceneBuilder& b, Fields& fields, 
     std::size_t const before = b.context.diagnostics.size();
     check_spectrum(b, *value, path, index.n, {SpectralQuantity::complex_index, Outside::error, false, 1e-3, 1000});
     if (b.context.diagnostics.size() == before) check_spectrum(b, *value, path, index.k, index_kind);
+    if (b.context.diagnostics.size() > before) return std::nullopt;
     return index;
 }
 
