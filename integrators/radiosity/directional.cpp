@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include "integrators/radiosity/exposure.h"
 #include "integrators/radiosity/mirrors.h"
 #include "integrators/radiosity/patch_spectra.h"
 
@@ -36,12 +37,17 @@ struct Place {
           side(p.back && !material.traits.two_sided ? -1 : 1) {
         point.from_front = !p.back;
     }
-    // Of what the patch sees: where a part of it lies below the horizon, just above.
-    Direction local(Direction const& world) const {
+    // Towards what the patch sees: where a part of that lies below the horizon, just above.
+    Direction above(Direction const& world) const {
         constexpr float just_above = 1e-3f;
         Direction d = frame.to_local(world);
-        d.z() = std::max(d.z(), just_above) * side;
-        return d.normalized();
+        d.z() = std::max(d.z(), just_above);
+        return frame.to_world(d.normalized());
+    }
+    Direction local(Direction const& world) const {
+        Direction d = frame.to_local(above(world));
+        d.z() *= side;
+        return d;
     }
 };
 
@@ -168,10 +174,11 @@ void DirectionalRadiosity::solve(Scene const& scene, DirectionalSettings const& 
             Patch const& p = mesh_.patch[i];
             int const light = mesh_.shape[static_cast<std::size_t>(p.shape)]->light;
             if (light < 0) continue;
+            Place const place(p, material_of(scene, p));
             for (std::size_t e = first_[i]; e < first_[i + 1]; ++e) {
                 VectorDouble const& end = mesh_.patch[static_cast<std::size_t>(neighbour_[e].patch)].centre;
-                Radiance const L = scene.lights.light(light).emitted(
-                    front_point(p), (end - p.centre).normalized().cast<float>(), packet);
+                Direction const way = place.above((end - p.centre).normalized().cast<float>());
+                Radiance const L = scene.lights.light(light).emitted(place.point, way, packet);
                 for (Eigen::Index lane = 0; lane < std::min<Eigen::Index>(lane_count, w - first); ++lane)
                     emitted(static_cast<Eigen::Index>(e), first + lane) = L.lane[static_cast<int>(lane)];
             }

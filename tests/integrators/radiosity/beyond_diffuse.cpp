@@ -108,8 +108,8 @@ TEST_CASE("a room with a silver and a gold wall is as bright as by path tracing"
     check_means(*room_with(R"({"type":"conductor","ior":"Au"})", silver), "radiosity", 7e-3);
 }
 
-// Hidden, since it fails: 6e-4 of the largest radiosity apart, and it is not known why.
-TEST_CASE("directional radiosity of diffuse surfaces is radiosity", "[.]") {
+// Fails, by 6e-4 of the largest radiosity, when the back of a lamp shines at what its plane cuts.
+TEST_CASE("directional radiosity of diffuse surfaces is radiosity", "[law]") {
     auto const scene =
         room_with(R"({"type":"diffuse","reflectance":"cornell:green"})", R"({"type":"diffuse","reflectance":0.4})");
     DirectionalRadiosity const directional(*scene, visible_range, {.patches = 60, .wavelengths = 9, .rays = 512});
