@@ -7,6 +7,7 @@
 #include <array>
 
 #include "base/warp.h"
+#include "integrators/radiosity/exposure.h"
 #include "integrators/radiosity/global_lines.h"
 #include "integrators/radiosity/polygon_form_factor.h"
 
@@ -36,17 +37,6 @@ FormFactors assemble(PatchMesh const& receivers, std::size_t columns, RowOfFacto
     return F;
 }
 
-VectorDouble point_on(PatchMesh const& mesh, Patch const& p, Sample2 u) {
-    auto const v = mesh.polygon(p);
-    double const first = p.corners == 3 ? 1 : (v[1] - v[0]).cross(v[2] - v[0]).norm() / 2 / p.area;
-    double const x = static_cast<double>(u.x);
-    bool const in_first = x < first;
-    float const rescaled = static_cast<float>(in_first ? x / first : (x - first) / (1 - first));
-    Vector2 const b = to_triangle({rescaled, u.y});
-    std::size_t const k = in_first ? 1 : 2;
-    return v[0] + static_cast<double>(b.x()) * (v[k] - v[0]) + static_cast<double>(b.y()) * (v[k + 1] - v[0]);
-}
-
 namespace {
 
 struct WeightedDirection {
@@ -57,6 +47,7 @@ struct WeightedDirection {
 RowOfFactors rays(PatchTracer const& tracer, int count) {
     return [&tracer, count](PatchMesh const& mesh, std::size_t i, RowSums& row) {
         Patch const& p = mesh.patch[i];
+        if (p.open == 0) return;
         Frame const frame = Frame::around(p.normal.cast<float>());
         for (int k = 0; k < count; ++k) {
             Sampler sampler(SamplerKind::sobol, 0, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(k));
@@ -71,6 +62,7 @@ RowOfFactors rays(PatchTracer const& tracer, int count) {
 RowOfFactors from_centres(PatchTracer const& tracer, std::vector<WeightedDirection> directions) {
     return [&tracer, directions = std::move(directions)](PatchMesh const& mesh, std::size_t i, RowSums& row) {
         Patch const& p = mesh.patch[i];
+        if (p.open == 0) return;
         Frame const frame = Frame::around(p.normal.cast<float>());
         for (WeightedDirection const& w : directions) {
             auto const hit = tracer.closest(p.centre, p.normal, frame.to_world(w.direction).cast<double>());
@@ -135,7 +127,7 @@ FormFactors analytic(PatchMesh const& mesh, PatchTracer const& tracer, int lines
         for (std::size_t j = 0; j < n; ++j) {
             std::size_t const a = std::min(i, j), b = std::max(i, j);
             Patch const &p = mesh.patch[a], &q = mesh.patch[b];
-            double const exchange = a == b ? 0 : exchange_area(polygons[a], polygons[b]);
+            double const exchange = a == b ? 0 : p.open * q.open * exchange_area(polygons[a], polygons[b]);
             if (exchange <= 0) continue;
             row.add(static_cast<int>(j),
                     exchange / mesh.patch[i].area *

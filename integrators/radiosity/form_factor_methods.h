@@ -36,9 +36,6 @@ std::span<FormFactorMethod const> form_factor_methods();
 // A row by a method that has rows, for every receiver, of `columns` patches.
 FormFactors assemble(PatchMesh const& receivers, std::size_t columns, RowOfFactors const& row);
 
-// A point of a patch, uniform over its area.
-VectorDouble point_on(PatchMesh const& mesh, Patch const& p, Sample2 u);
-
 // A_i F_ij and A_j F_ji replaced by their mean, then scaled alike from both sides until the rows sum to what they did.
 void make_reciprocal(System& system);
 

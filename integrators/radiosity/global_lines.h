@@ -30,16 +30,21 @@ class GlobalLines {
         VectorDouble from = centre_ + radius_ * to_sphere(sampler.next2()).cast<double>();
         VectorDouble const end = centre_ + radius_ * to_sphere(sampler.next2()).cast<double>();
         VectorDouble const way = (end - from).normalized();
-        int before = -1;  // the patch that the line leaves
+        // What lies before the line's next meeting: nothing yet, the dark inside of a body, or what a patch sees. A
+        // patch under a body is not met.
+        constexpr int open = -1, dark = -2;
+        int before = open;
         VectorDouble clear = VectorDouble::Zero();
         for (auto hit = tracer_.closest(from, clear, way); hit; hit = tracer_.closest(from, clear, way)) {
-            if (before >= 0 && hit->patch >= 0) faces(before, hit->patch);
-            if (hit->patch >= 0) meets(hit->patch);
-            before = hit->other_side;
-            if (before >= 0) meets(before);
+            if (before != dark && hit->patch >= 0) {
+                meets(hit->patch);
+                if (before >= 0) meets(before), faces(before, hit->patch);
+            }
+            before = hit->other_side >= 0 ? hit->other_side : dark;
             from = hit->position;
             clear = way;
         }
+        if (before >= 0) meets(before);
     }
 
   private:

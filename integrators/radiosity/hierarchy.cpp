@@ -3,7 +3,7 @@
 
 #include <tbb/parallel_for.h>
 
-#include "integrators/radiosity/form_factor_methods.h"
+#include "integrators/radiosity/exposure.h"
 #include "integrators/radiosity/link_refiner.h"
 
 namespace iride::radiosity {
@@ -55,7 +55,7 @@ Spectra Hierarchy::gather(Spectra const& b) const {
                 arrived.row(n) += entries_[k].factor * mean.row(entries_[k].from);
         }
     });
-    Spectra sums(b.rows(), b.cols());
+    Spectra sums = Spectra::Zero(b.rows(), b.cols());
     for (Eigen::Index n = 0; n < nodes; ++n) {
         if (node(n).is_leaf()) {
             sums.row(patch(node(n))) = (arrived.row(n) * scale_[patch(node(n))]).cast<double>();
@@ -72,6 +72,7 @@ namespace {
 // Share of `rays` rays from a patch that meet another.
 double share_that_stays(PatchMesh const& mesh, PatchTracer const& tracer, std::size_t patch, int first, int rays) {
     Patch const& p = mesh.patch[patch];
+    if (p.open == 0) return 0;
     Frame const frame = Frame::around(p.normal.cast<float>());
     int stay = 0;
     for (int k = first; k < first + rays; ++k) {
@@ -110,7 +111,7 @@ void Hierarchy::close(PatchMesh const& mesh, PatchTracer const& tracer) {
     auto const row_sums = [&] { return gather(Spectra::Ones(scale_.size(), 1)).col(0).eval(); };
     closure_defect_ = (wanted - row_sums()).abs().maxCoeff();
     constexpr int rounds = 8;        // each shrinks the defect severalfold
-    constexpr float widest = 1.25f;  // beyond, a row is not inexact but that of a patch against another surface
+    constexpr float widest = 1.25f;  // beyond, a row is not inexact: links that should be there are missing
     for (int k = 0; k < rounds; ++k) {
         Eigen::ArrayXd const found = row_sums();
         scale_ *= (found > 0).select((wanted / found.max(1e-300)).sqrt(), 1.0).cast<float>();

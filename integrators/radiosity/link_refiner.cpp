@@ -8,7 +8,7 @@
 #include <atomic>
 
 #include "integrators/radiosity/closed_forms.h"
-#include "integrators/radiosity/form_factor_methods.h"
+#include "integrators/radiosity/exposure.h"
 
 namespace iride::radiosity {
 
@@ -110,7 +110,7 @@ double LinkRefiner::near_exchange(int r, int s, double seen) const {
             VectorDouble const end = point_on(mesh_, to, {number(32), number(48)});
             if (from.normal.dot(end - at) <= 0 || !tracer_.visible(at, from.normal, end, to.normal)) continue;
         }
-        sum += std::abs(patch_to_polygon(at, from.normal, polygon));
+        sum += to.open * std::abs(patch_to_polygon(at, from.normal, polygon));
     }
     return std::min(sum / (grid * grid) * from.area, to.area);
 }

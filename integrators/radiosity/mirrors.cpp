@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include "base/warp.h"
+#include "integrators/radiosity/exposure.h"
 #include "integrators/radiosity/form_factor_methods.h"
 #include "integrators/radiosity/patch_spectra.h"
 
@@ -63,6 +64,7 @@ FormFactors by_rays(PatchMesh const& mesh, PatchTracer const& tracer, Mirrors co
         Patch const& p = mesh.patch[i];
         // Nothing ends at a mirror, so nothing starts there; its row only closes.
         if (mirrors.is_one(i)) return row.add(static_cast<int>(i), 1);
+        if (p.open == 0) return;
         Frame const frame = Frame::around(p.normal.cast<float>());
         for (int k = 0; k < rays; ++k) {
             Sampler sampler(SamplerKind::sobol, 0, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(k));

@@ -2,7 +2,6 @@
 #include "integrators/radiosity/patch_tree.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace iride::radiosity {
 
@@ -84,9 +83,10 @@ class Builder {
 
 }  // namespace
 
-PatchTree::PatchTree(PatchMesh const& mesh) : order(mesh.patch.size()) {
-    std::iota(order.begin(), order.end(), 0);
-    node.reserve(2 * mesh.patch.size());
+PatchTree::PatchTree(PatchMesh const& mesh) {
+    for (std::size_t i = 0; i < mesh.patch.size(); ++i)
+        if (mesh.patch[i].open > 0) order.push_back(static_cast<int>(i));
+    node.reserve(2 * order.size());
     Builder(mesh, *this).build(0, static_cast<int>(order.size()));
 }
 

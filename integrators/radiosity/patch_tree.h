@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A binary tree over the patches of a scene: first by surface side (coplanar patches stay together), then halved along
-// the longest extent of the patches' centres. A node's patches are neighbours in `order`; parents precede children.
+// A binary tree over the open patches of a scene, of which there must be one: first by surface side (coplanar patches
+// stay together), then halved along the longest extent of the patches' centres. A node's patches are neighbours in
+// `order`; parents precede children.
 #pragma once
 
 #include <vector>

@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <set>
-
 #include "base/diagnostics.h"
+#include "integrators/radiosity/exposure.h"
+#include "integrators/radiosity/lit_backs.h"
 #include "integrators/radiosity/polygon_form_factor.h"
 #include "integrators/radiosity/tessellation.h"
 
@@ -45,54 +45,6 @@ void add_side(PatchMesh& mesh, Faces const& faces, int shape, bool turned, int f
         }
         mesh.patch.push_back(p);
     }
-}
-
-// What rays meet that leave the backs of some of a shape's patches: anything that light may come from, or backs of
-// shapes.
-struct SeenBehind {
-    bool lit = false;
-    std::set<int> backs;
-};
-SeenBehind seen_behind(PatchMesh const& fronts, PatchTracer const& tracer, int shape) {
-    constexpr int patches = 16, rays = 16;
-    std::vector<Patch const*> own;
-    for (Patch const& p : fronts.patch)
-        if (p.shape == shape) own.push_back(&p);
-    std::size_t const step = std::max<std::size_t>(1, own.size() / patches);
-    SeenBehind seen;
-    for (std::size_t i = 0; i < own.size(); i += step)
-        for (int k = 0; k < rays; ++k) {
-            Sampler sampler(SamplerKind::sobol, 0, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(k));
-            Direction const local = to_cosine_hemisphere(sampler.next2());
-            Direction const behind = Frame::around((-own[i]->normal).cast<float>()).to_world(local);
-            auto const hit = tracer.closest(own[i]->centre, -own[i]->normal, behind.cast<double>());
-            if (!hit) continue;
-            int const met = fronts.patch[static_cast<std::size_t>(std::max(hit->patch, hit->other_side))].shape;
-            if (hit->patch >= 0 || fronts.shape[static_cast<std::size_t>(met)]->light >= 0)
-                seen.lit = true;
-            else
-                seen.backs.insert(met);
-        }
-    return seen;
-}
-
-// Shapes whose backs light may reach: they see a front, a lamp, or another such back. The inside of a closed body is
-// dark.
-std::vector<bool> lit_backs(PatchMesh const& fronts) {
-    PatchTracer const tracer(fronts);
-    std::vector<SeenBehind> seen;
-    std::vector<bool> lit;
-    for (std::size_t s = 0; s < fronts.shape.size(); ++s) {
-        seen.push_back(seen_behind(fronts, tracer, static_cast<int>(s)));
-        lit.push_back(seen.back().lit);
-    }
-    for (bool changed = true; changed;) {
-        changed = false;
-        for (std::size_t s = 0; s < lit.size(); ++s)
-            if (!lit[s] && std::ranges::any_of(seen[s].backs, [&](int b) { return lit[static_cast<std::size_t>(b)]; }))
-                lit[s] = changed = true;
-    }
-    return lit;
 }
 
 }  // namespace
@@ -149,30 +101,40 @@ PatchMesh make_patches(Scene const& scene, double size_m) {
         add_side(fronts, faces.back(), static_cast<int>(fronts.shape.size()), p.shape->flipped, -1);
         fronts.shape.push_back(p.shape);
     }
-    std::vector<bool> const lit = lit_backs(fronts);
+    std::vector<bool> const lit = lit_backs(scene, fronts, PatchTracer(fronts, PatchTracer::Fronts::drawn_in));
     PatchMesh mesh = fronts;
     for (std::size_t s = 0; s < all.size(); ++s)
         if (lit[s]) add_side(mesh, faces[s], static_cast<int>(s), !all[s].shape->flipped, first[s]);
+    find_open_parts(mesh);
     return mesh;
 }
 
-PatchTracer::PatchTracer(PatchMesh const& mesh) {
+PatchTracer::PatchTracer(PatchMesh const& mesh, Fronts fronts) {
+    VectorDouble low = mesh.position.front(), high = low;
+    for (VectorDouble const& p : mesh.position) low = low.cwiseMin(p), high = high.cwiseMax(p);
+    constexpr double relative = 1e-5;  // of the scene: a hundred units in the last place of its coordinates
+    clearance_ = relative * (high - low).norm();
+    double const inwards = fronts == Fronts::drawn_in ? clearance_ / 2 : 0;
+    std::vector<VectorDouble> normal(mesh.position.size(), VectorDouble::Zero());
+    for (Patch const& p : mesh.patch)
+        for (std::size_t k = 0; k < static_cast<std::size_t>(p.corners); ++k)
+            normal[static_cast<std::size_t>(p.vertex[k])] += p.normal;
     auto triangles = std::make_shared<Mesh>();
-    for (VectorDouble const& p : mesh.position) triangles->position.push_back(p.cast<float>());
+    for (std::size_t v = 0; v < normal.size(); ++v)
+        triangles->position.push_back((mesh.position[v] - inwards * normal[v].stableNormalized()).cast<float>());
     auto const index = [](int i) { return static_cast<std::uint32_t>(i); };
+    auto const of_open = [&](int i) { return i >= 0 && mesh.patch[static_cast<std::size_t>(i)].open > 0 ? i : -1; };
     for (std::size_t i = 0; i < mesh.patch.size(); ++i) {
         Patch const& p = mesh.patch[i];
         if (p.back) continue;
         for (std::size_t k = 2; k < static_cast<std::size_t>(p.corners); ++k) {
             triangles->triangle.push_back({index(p.vertex[0]), index(p.vertex[k - 1]), index(p.vertex[k])});
-            sides_.push_back({static_cast<int>(i), p.opposite});
+            sides_.push_back({of_open(static_cast<int>(i)), of_open(p.opposite)});
         }
     }
     shapes_.emplace_back().geometry = MeshShape{triangles, false};
     accelerator_ =
         std::make_unique<Accelerator>(shapes_, std::vector<ObjectGeometry>{}, std::vector<InstancePlacement>{});
-    constexpr double relative = 1e-5;  // of the scene: a hundred units in the last place of its coordinates
-    clearance_ = relative * static_cast<double>((accelerator_->upper_bound() - accelerator_->lower_bound()).norm());
 }
 
 std::optional<PatchHit> PatchTracer::closest(Ray const& ray) const {

@@ -19,14 +19,18 @@ struct Patch {
     bool back;                  // of the shape
     int opposite;               // the patch on its other side, or -1
     VectorDouble centre, normal;
-    double area;  // m^2
+    double area;           // m^2, of what lies open; of a patch that lies against others altogether, its own
+    double open = 1;       // share of its own area, exposure.h
+    int open_points = -1;  // index into PatchMesh::open_points, where 0 < open < 1
+    double open_area() const { return open > 0 ? area : 0; }
 };
 
 struct PatchMesh {
     std::vector<VectorDouble> position;  // [vertex], m; sides and shapes share none
     std::vector<Patch> patch;
     std::vector<Shape const*> shape;
-    int slivers = 0;  // faces without area, left out
+    std::vector<std::vector<VectorDouble>> open_points;  // uniform over what lies open of a patch
+    int slivers = 0;                                     // faces without area, left out
 
     std::vector<VectorDouble> polygon(Patch const& p) const;
 };
@@ -45,7 +49,7 @@ void measure(PatchMesh const& mesh, Patch& p);
 
 // Where a ray first meets a patch.
 struct PatchHit {
-    int patch;       // on the side met; -1: the back of a surface that has no patches there
+    int patch;       // on the side met; -1: a side that light cannot reach
     int other_side;  // likewise
     VectorDouble position;
 };
@@ -53,7 +57,10 @@ struct PatchHit {
 // Rays among patches. Points lie on patches; what is traced starts `clearance` off the patch, on its side.
 class PatchTracer {
   public:
-    explicit PatchTracer(PatchMesh const& mesh);
+    // Drawn in by half the clearance: where bodies touch, a ray inside of one meets that and not the other's front.
+    enum class Fronts { exact, drawn_in };
+    explicit PatchTracer(PatchMesh const& mesh, Fronts fronts = Fronts::exact);
+    double clearance() const { return clearance_; }  // m
     std::optional<PatchHit> closest(VectorDouble const& from, VectorDouble const& side,
                                     VectorDouble const& direction) const;
     // The same for a ray that starts in the open.

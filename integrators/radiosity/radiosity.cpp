@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "integrators/radiosity/exposure.h"
 #include "integrators/radiosity/global_lines.h"
 #include "integrators/radiosity/hierarchy.h"
 #include "integrators/radiosity/memory.h"
@@ -114,7 +115,6 @@ void SceneRadiosity::solve_stored(Scene const& scene, std::vector<double> const&
     auto const describe_factors = [&] {
         report_.reciprocity_defect = reciprocity_defect(system_);
         report_.closure_defect = closure_defect(system_);
-        say_what_leaks(scene);
     };
     if (mirrors) {
         extend_form_factors(system_, mesh_, *tracer_, Mirrors(scene, mesh_, nm), fineness, describe_factors);
@@ -136,13 +136,13 @@ void SceneRadiosity::solve_stored(Scene const& scene, std::vector<double> const&
         report_.links = hierarchy->links();
         report_.closure_defect = hierarchy->closure_defect();
         system_.transport = hierarchy;
-        say_what_leaks(scene);
     }
     refuse_trapped_light(scene, mesh_, system_, nm);
     Solution const solution = solve(system_, solver, settings.stop);
     radiosity_ = solution.radiosity;
     report_.iterations = solution.iterations;
     report_.residual = solution.residual;
+    say_what_leaks(scene);
 }
 
 bool SceneRadiosity::sees_out(std::size_t patch) const {
@@ -161,13 +161,15 @@ bool SceneRadiosity::sees_out(std::size_t patch) const {
 // Rows that sum to less than 1 by more than their own error, when no environment is there to be seen.
 void SceneRadiosity::say_what_leaks(Scene const& scene) {
     if (!scene.lights.environments().empty()) return;
-    constexpr double noticeable = 0.01;
+    constexpr double noticeable = 0.01, dark = 1e-6;  // dark: of the brightest patch
+    Eigen::ArrayXd const brightness = radiosity_.rowwise().maxCoeff();
     Eigen::ArrayXd const sums = gathered_shares(system_, Spectra::Ones(system_.patches(), 1)).col(0);
-    // Not those that lie against another surface: what enters a dark body is no leak.
+    // Not those without light to lose, nor those that lie against a body.
     Eigen::Index worst = -1;
     double lost = 0, area = 0;
     for (Eigen::Index i = 0; i < sums.size(); ++i) {
-        if (sums[i] > 1 - noticeable || !sees_out(static_cast<std::size_t>(i))) continue;
+        if (sums[i] > 1 - noticeable || brightness[i] <= dark * brightness.maxCoeff()) continue;
+        if (!sees_out(static_cast<std::size_t>(i))) continue;
         area += system_.area[i] / system_.area.sum();
         if (1 - sums[i] > lost) lost = 1 - sums[i], worst = i;
     }
@@ -199,6 +201,7 @@ void SceneRadiosity::solve_by_lines(Settings const& settings, StochasticEntry co
     LineSource const source{
         [&](int from, Sampler& sampler) {
             Patch const& p = mesh_.patch[static_cast<std::size_t>(from)];
+            if (p.open == 0) return -1;
             VectorDouble const at = point_on(mesh_, p, sampler.next2());
             Direction const way = Frame::around(p.normal.cast<float>()).to_world(to_cosine_hemisphere(sampler.next2()));
             auto const hit = tracer_->closest(at, p.normal, way.cast<double>());
@@ -228,6 +231,7 @@ void SceneRadiosity::substructure(Scene const& scene, std::vector<double> const&
     Spectra b = radiosity_;
     for (int level = 0; level < settings.substructuring; ++level) {
         elements = split(elements, varying(elements, b, settings.contrast));
+        find_open_parts(elements.mesh);
         refuse_if_too_large(static_cast<double>(elements.mesh.patch.size()), settings.wavelengths, &method,
                             fineness_of(settings, method), settings.memory_bytes);
         FormFactors const of_elements = assemble(elements.mesh, mesh_.patch.size(), row);

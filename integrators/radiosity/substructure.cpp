@@ -118,6 +118,8 @@ class Splitter {
         for (std::size_t k = 0; k < 4; ++k)
             p.vertex[k] = number[static_cast<std::size_t>(part[std::min(k, part.size() - 1)])];
         if (turned) std::reverse(p.vertex.begin(), p.vertex.begin() + p.corners);
+        p.open = 1;
+        p.open_points = -1;
         measure(to_.mesh, p);
         to_.mesh.patch.push_back(p);
         to_.parent.push_back(from_.parent[static_cast<std::size_t>(&of - from_.mesh.patch.data())]);
@@ -159,10 +161,13 @@ std::vector<char> varying(Elements const& elements, Spectra const& b, double con
 
 FormFactors factors_of_patches(System const& system, Elements const& elements, FormFactors const& of_elements) {
     FormFactors to_patch(system.patches(), of_elements.rows());
+    Eigen::ArrayXd area = Eigen::ArrayXd::Zero(system.patches());
+    for (std::size_t s = 0; s < elements.parent.size(); ++s)
+        area[elements.parent[s]] += elements.mesh.patch[s].open_area();
     std::vector<Eigen::Triplet<double>> shares;
     for (std::size_t s = 0; s < elements.parent.size(); ++s)
         shares.emplace_back(elements.parent[s], static_cast<int>(s),
-                            elements.mesh.patch[s].area / system.area[elements.parent[s]]);
+                            elements.mesh.patch[s].open_area() / std::max(area[elements.parent[s]], 1e-300));
     to_patch.setFromTriplets(shares.begin(), shares.end());
     return to_patch * of_elements;
 }

@@ -44,7 +44,8 @@ double reciprocity_defect(System const& system) {
 }
 
 double closure_defect(System const& system) {
-    return (1 - gathered_shares(system, Spectra::Ones(system.patches(), 1))).abs().maxCoeff();
+    Spectra const sums = gathered_shares(system, Spectra::Ones(system.patches(), 1));
+    return (sums > 0).select(1 - sums, 0.0).abs().maxCoeff();
 }
 
 }  // namespace iride::radiosity

@@ -49,7 +49,8 @@ Spectra residual(System const& system, Spectra const& b);
 // sum / (A (1 - mean rho)). [W m^-2 nm^-1]
 Row ambient(System const& system, Spectra const& unshot);
 
-// The largest |A_i F_ij - A_j F_ji| over the largest A_i F_ij, and the largest |1 - sum_j F_ij|.
+// The largest |A_i F_ij - A_j F_ji| over the largest A_i F_ij, and the largest |1 - sum_j F_ij| of patches that see
+// any.
 double reciprocity_defect(System const& system);
 double closure_defect(System const& system);
 

@@ -14,8 +14,8 @@ Spectra to_vertices(PatchMesh const& mesh, Spectra const& of_patches) {
     for (std::size_t i = 0; i < mesh.patch.size(); ++i) {
         Patch const& p = mesh.patch[i];
         for (std::size_t k = 0, n = static_cast<std::size_t>(p.corners); k < n; ++k) {
-            mean.row(p.vertex[k]) += p.area * of_patches.row(static_cast<Eigen::Index>(i));
-            area[p.vertex[k]] += p.area;
+            mean.row(p.vertex[k]) += p.open_area() * of_patches.row(static_cast<Eigen::Index>(i));
+            area[p.vertex[k]] += p.open_area();
             ++users[std::minmax(p.vertex[k], p.vertex[(k + 1) % n])];
         }
     }

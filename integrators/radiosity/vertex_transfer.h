@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Patch values to vertices, for interpolation. A vertex inside a surface takes the area-weighted mean of its patches.
+// Patch values to vertices, for interpolation. A vertex inside a surface takes the mean of its patches by open area.
 // For one on the surface's border that mean stands half way to the nearest inner vertex n: b_v = 2 mean - b_n. [Cohen
 // 1985]
 #pragma once

@@ -36,9 +36,9 @@ std::array<double, bands> means(Film const& film) {
     return mean;
 }
 
-void check_bands(char const* name, int patches, int spp) {
+void check_bands(char const* name, int patches, int rays, int spp) {
     auto const scene = small(name, 40);
-    auto const found = means(solved(*scene, {.patches = patches, .wavelengths = 40, .fineness = 512}, 64)),
+    auto const found = means(solved(*scene, {.patches = patches, .wavelengths = 95, .fineness = rays}, 256)),
                traced = means(test::rendered(*scene, "path", {.spp = spp}));
     for (std::size_t b = 0; b < bands; ++b) {
         INFO(name << ", band " << b);
@@ -50,19 +50,19 @@ void check_bands(char const* name, int patches, int spp) {
 
 // Fails when lamps emit b instead of b / pi, for factors that do not close, and for bands shifted by one.
 TEST_CASE("radiosity is as bright as path within half a per cent in every band", "[law]") {
-    check_bands("cube-ceiling", 1000, 3000);
+    check_bands("cube-ceiling", 1000, 512, 3000);
 }
 
-// Hidden, since it fails, by up to 3 %: where faces lie on each other, factors of the two ways estimate different
-// things, and making them reciprocal takes light from the open parts.
-TEST_CASE("the same of a furnished room", "[.]") { check_bands("room", 5000, 1600); }
+// Nearly everything there stands on, leans against or runs into something else. Fails, by up to 3 %, when the mean of a
+// patch is taken over what lies under a body too, or when insides of bodies that run into others count as lit.
+TEST_CASE("the same of a furnished room", "[law]") { check_bands("room", 12000, 256, 1600); }
 
 // What patches of this size cannot show is told by patches of half the size: where both agree, so must path.
-// Hidden, since it fails: 47 of 1024 pixels are beyond.
-TEST_CASE("pixels of radiosity are those of path but for the size of patches", "[.]") {
+// Fails, for 47 pixels of 1024, when 12 wavelengths are to stand for all.
+TEST_CASE("pixels of radiosity are those of path but for the size of patches", "[law]") {
     auto const scene = small("cube-ceiling", 32);
-    Film const coarse = solved(*scene, {.patches = 600, .wavelengths = 12, .fineness = 1024}, 64),
-               fine = solved(*scene, {.patches = 2400, .wavelengths = 12, .fineness = 1024}, 64),
+    Film const coarse = solved(*scene, {.patches = 600, .wavelengths = 95, .fineness = 1024}, 64),
+               fine = solved(*scene, {.patches = 2400, .wavelengths = 95, .fineness = 1024}, 64),
                traced = test::rendered(*scene, "path", {.spp = 512, .sampler = SamplerKind::independent});
     int beyond = 0;
     for (int y = 0; y < fine.height(); ++y)

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "integrators/radiosity/exposure.h"
+
+#include <tbb/parallel_for.h>
+
+#include "base/warp.h"
+#include "integrators/radiosity/polygon_form_factor.h"
+
+namespace iride::radiosity {
+
+namespace {
+
+VectorDouble point_on_polygon(PatchMesh const& mesh, Patch const& p, Sample2 u) {
+    auto const v = mesh.polygon(p);
+    double const whole = vector_area(v).norm();
+    double const first = p.corners == 3 ? 1 : (v[1] - v[0]).cross(v[2] - v[0]).norm() / 2 / whole;
+    double const x = static_cast<double>(u.x);
+    bool const in_first = x < first;
+    float const rescaled = static_cast<float>(in_first ? x / first : (x - first) / (1 - first));
+    Vector2 const b = to_triangle({rescaled, u.y});
+    std::size_t const k = in_first ? 1 : 2;
+    return v[0] + static_cast<double>(b.x()) * (v[k] - v[0]) + static_cast<double>(b.y()) * (v[k + 1] - v[0]);
+}
+
+bool lies_open(PatchTracer const& tracer, Patch const& p, VectorDouble const& at, Sampler& sampler) {
+    constexpr int rays = 4, most_dark = 1;
+    int dark = 0;
+    Frame const frame = Frame::around(p.normal.cast<float>());
+    for (int k = 0; k < rays; ++k) {
+        Direction const way = frame.to_world(to_cosine_hemisphere(sampler.next2()));
+        auto const hit = tracer.closest(at, p.normal, way.cast<double>());
+        dark += hit && hit->patch < 0;
+    }
+    return dark <= most_dark;
+}
+
+std::vector<VectorDouble> open_points(PatchMesh const& mesh, PatchTracer const& tracer, std::size_t patch, int tried) {
+    std::vector<VectorDouble> open;
+    for (int k = 0; k < tried; ++k) {
+        Sampler sampler(SamplerKind::sobol, 7, static_cast<std::uint32_t>(patch), static_cast<std::uint32_t>(k));
+        VectorDouble const at = point_on_polygon(mesh, mesh.patch[patch], sampler.next2());
+        if (lies_open(tracer, mesh.patch[patch], at, sampler)) open.push_back(at);
+    }
+    return open;
+}
+
+// The point nearest to the mean of all.
+VectorDouble middle_of(std::vector<VectorDouble> const& points) {
+    VectorDouble mean = VectorDouble::Zero();
+    for (VectorDouble const& p : points) mean += p / static_cast<double>(points.size());
+    return *std::ranges::min_element(points, {}, [&](VectorDouble const& p) { return (p - mean).squaredNorm(); });
+}
+
+}  // namespace
+
+void find_open_parts(PatchMesh& mesh) {
+    PatchTracer const tracer(mesh, PatchTracer::Fronts::drawn_in);
+    constexpr int first_look = 16, closer_look = 1024;
+    std::vector<std::vector<VectorDouble>> found(mesh.patch.size());
+    tbb::parallel_for(std::size_t{0}, mesh.patch.size(), [&](std::size_t i) {
+        if (open_points(mesh, tracer, i, first_look).size() == first_look) return;
+        Patch& p = mesh.patch[i];
+        found[i] = open_points(mesh, tracer, i, closer_look);
+        p.open = static_cast<double>(found[i].size()) / closer_look;
+        if (found[i].empty()) return;
+        p.centre = middle_of(found[i]);
+        p.area *= p.open;
+    });
+    for (std::size_t i = 0; i < found.size(); ++i)
+        if (!found[i].empty()) {
+            mesh.patch[i].open_points = static_cast<int>(mesh.open_points.size());
+            mesh.open_points.push_back(std::move(found[i]));
+        }
+}
+
+VectorDouble point_on(PatchMesh const& mesh, Patch const& p, Sample2 u) {
+    if (p.open_points < 0) return point_on_polygon(mesh, p, u);
+    auto const& points = mesh.open_points[static_cast<std::size_t>(p.open_points)];
+    auto const k = static_cast<std::size_t>(u.x * static_cast<float>(points.size()));
+    return points[std::min(k, points.size() - 1)];
+}
+
+}  // namespace iride::radiosity
