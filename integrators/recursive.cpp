@@ -121,7 +121,8 @@ std::unique_ptr<Integrator> make_direct(Scene const& scene, RenderPlan const& pl
                          "the scene has point, spot or distant lights, which no direction meets; allowed: "
                          "area, solid-angle, mis");
     options.finish();
-    return std::make_unique<Recursive>(scene, plan, settings, Generations{});
+    return std::make_unique<Recursive>(scene, plan, settings,
+                                       Generations{.most = std::min(1, plan.max_bounces.value_or(1))});
 }
 
 std::unique_ptr<Integrator> make_recursive(Scene const& scene, RenderPlan const& plan, IntegratorOptions& options) {

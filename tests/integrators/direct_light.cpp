@@ -33,8 +33,8 @@ std::string const three_lamps = scene_text(
 
 }  // namespace
 
-// Fails for lamps averaged, a density over area taken for one over solid angle, and directions of one side alone where
-// light comes through.
+// Fails for lamps averaged, the choice among them left out of a density or of a weight, a density over area taken for
+// one over solid angle, and directions of one side alone where light comes through.
 TEST_CASE("every strategy for direct light finds what path finds after one scattering", "[law]") {
     auto const scene = test::scene_from(three_lamps);
     RenderSettings settings{.spp = 2048, .seed = 21, .sampler = SamplerKind::independent};

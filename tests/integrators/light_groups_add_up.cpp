@@ -63,7 +63,8 @@ std::map<std::string, std::vector<float>> layers_of(Scene const& scene, std::str
 
 }  // namespace
 
-// Sums do not see a term that is put under the wrong lamp; the second check does.
+// Sums do not see a term that is put under the wrong lamp; the second check does. Fails for light of the sky, or light
+// sampled directly, that goes to the first lamp's group.
 TEST_CASE("light groups add up to the picture, and each is the picture of its lamps alone", "[law]") {
     std::string const
         glass = R"({ "type": "dielectric", "ior": { "pairs": [[300, 2.0], [900, 1.4]] } })",
