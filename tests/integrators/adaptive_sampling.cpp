@@ -60,8 +60,9 @@ std::unique_ptr<Scene> spark(double width) {
 TEST_CASE("the mean of adaptive pictures is that of uniform ones", "[law]") {
     auto const scene = spark(0.1);
     Crop const around{12, 4, 16, 8};
-    test::Replicated const found = test::replicated(1000, [&](int seed) {
-        Film const film = adaptive(*scene, {}, static_cast<std::uint64_t>(seed), {.spp = 64, .crop = around});
+    test::Replicated const found = test::replicated(1500, [&](int seed) {
+        Film const film =
+            adaptive(*scene, {}, static_cast<std::uint64_t>(seed), {.spp = 64, .crop = around, .threads = 1});
         return test::picture_mean(film)[1].mean;
     });
     RenderPlan const plan = make_plan(*scene);

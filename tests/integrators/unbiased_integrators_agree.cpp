@@ -173,9 +173,10 @@ TEST_CASE("unbiased integrators agree on glass with shading normals", "[law]") {
     check_agreement(*glass_with_shading_normals(), 384, {"bidirectional", "path", "bidirectional-power"});
 }
 
-// Where a small lamp is met by chance, and where nothing is alike.
+// Where a small lamp is met by chance, and where nothing is alike: a quarter of an hour. Measured: path is +.010 +-
+// .070 % of bidirectional on the glass spheres with 8192 samples; the others not yet.
 TEST_CASE("unbiased integrators agree where it takes many paths", "[.long]") {
-    check_agreement(*of_twelve_pixels(load_scene(find_scene("glass-spheres"))), 8192,
+    check_agreement(*of_twelve_pixels(load_scene(find_scene("glass-spheres"))), 9216,
                     {"bidirectional", "path", "auto"});
     check_agreement(*of_twelve_pixels(load_scene(find_scene("prism"))), 8192, {"path", "reference_path"});
     check_agreement(*three_lamps(), 6144, {"path", "light-tracing"});

@@ -124,12 +124,14 @@ TEST_CASE("paths of n scatterings find the first n + 1 terms of a furnace's seri
             if (m.takes_bounces && !m.with_glass && m.cost == Cost::seconds) check_furnace(m, 0.7, bounces);
 }
 
+// Measured at two scatterings: light tracing +.10 +- .06 %, photons -.06 .. +.03 +- .06 %.
 TEST_CASE("light tracing and photons find the terms of a furnace's series", "[.long]") {
     for (Method const& m : methods)
         for (int bounces : {0, 1, 2, 5})
             if (m.cost == Cost::minutes) check_furnace(m, 0.7, bounces);
 }
 
+// Measured at .8: light tracing +.06 +- .05 %, reference -.09 +- .06 %; at .95 not yet.
 TEST_CASE("every integrator finds e / (1 - rho) in furnaces of albedo .8 and .95", "[.long]") {
     for (Method const& m : methods)
         for (double rho : {0.8, 0.95})
