@@ -159,7 +159,7 @@ TEST_CASE("unbiased integrators agree on a prism", "[law]") {
 // Fails where the choice among lamps is left out of a light sample's density, of the weight of a lamp that scattering
 // finds, and of what a camera path's techniques are weighed by.
 TEST_CASE("unbiased integrators agree under three lamps of different power", "[law]") {
-    check_agreement(*three_lamps(), 320, {"path", "bidirectional", "bidirectional-power"});
+    check_agreement(*three_lamps(), 448, {"path", "bidirectional", "bidirectional-power"});
 }
 // Fails for a light sample's weight squared, a lamp counted twice, a density that is not turned to one over area, and
 // joined vertices that do not know the light path's other techniques.
