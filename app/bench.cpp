@@ -93,9 +93,11 @@ void print_table(bench::Benchmark const& b, bench::Rows const& rows) {
 
 int run_bench(Options& o) {
     std::vector<bench::Benchmark> const chosen = sort_out(o);
-    for (std::string const& name : o.settings.integrators)
+    for (std::string const& text : o.settings.integrators) {
+        std::string const name = parse_integrator(text).name;
         if (std::ranges::none_of(integrator_entries(), [&](IntegratorEntry const& e) { return name == e.name; }))
             throw InputError({}, "--integrator", fmt::format("unknown integrator '{}'", name));
+    }
     if (!o.json.empty()) check_writable(o.json);
     if (!o.plot.empty()) check_output("--plot", o.plot, ".png");
     o.settings.references = o.references.empty() ? default_references() : std::filesystem::path(o.references);

@@ -42,7 +42,9 @@ constexpr std::array<IntegratorEntry, 16> table{{
      make_recursive},
     {"ambient-occlusion",
      "how much of a sky each place would see; sampling= uniform, cosine; distance=", make_ambient_occlusion},
-    {"radiosity", "diffuse surfaces cut into patches, solved for every wavelength: no noise",
+    {"radiosity",
+     "diffuse surfaces cut into patches, solved for every wavelength: no noise; patches=, wavelengths=, form_factors=; "
+     "direct_light= patches, lamps",
      radiosity::make_radiosity},
     {"directional-radiosity",
      "the same where surfaces are rough, patch to patch to patch, for small scenes; patches=, wavelengths=",

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "integrators/direct_light.h"
+#include "integrators/radiosity/field.h"
 
 namespace iride {
 
@@ -21,12 +22,16 @@ constexpr int most_splits = 16;
 class Recursive final : public Integrator {
   public:
     Recursive(Scene const& scene, RenderPlan const& plan, DirectLightSettings const& settings,
-              Generations const& generations)
+              Generations const& generations, std::shared_ptr<radiosity::RadiosityField const> indirect = nullptr,
+              std::vector<std::string> remarks = {})
         : direct_(scene, settings),
           generations_(generations),
+          indirect_(std::move(indirect)),
+          remarks_(std::move(remarks)),
           lamps_(scene.lights.has_power()),
           camera_in_(plan.media ? plan.camera_in : Surroundings()) {}
 
+    std::vector<std::string> remarks() const override { return remarks_; }
     void follow(Scene const& scene, std::span<CameraPath> paths, RayStatistics& statistics) const override {
         for (CameraPath& path : paths) {
             Tree tree{scene, path, statistics};
@@ -68,6 +73,11 @@ class Recursive final : public Integrator {
         for (int i = 0; i < splits; ++i) directions[static_cast<std::size_t>(i)] = path.sampler.next2();
         if (lamps_)
             path.radiance += direct_.at({scene, hit, here, path.wavelengths, state, in}, path.sampler, statistics);
+        if (indirect_ && here.bsdf.has_density()) {
+            ++statistics.closest_rays;
+            if (auto const patch = indirect_->tracer().closest(ray))
+                path.radiance += state.weight * indirect_->radiance(*patch, path.wavelengths) * (1 / mean(state.reach));
+        }
         for (int i = 0; i < splits; ++i) {
             constexpr float below_one = 0x1.fffffep-1f;  // the sum may round up
             float const lobe = std::min((static_cast<float>(i) + first) / static_cast<float>(splits), below_one);
@@ -85,6 +95,8 @@ class Recursive final : public Integrator {
 
     DirectLight direct_;
     Generations generations_;
+    std::shared_ptr<radiosity::RadiosityField const> indirect_;
+    std::vector<std::string> remarks_;
     bool lamps_;
     std::optional<Surroundings> camera_in_;  // absent: to be found for each path
 };
@@ -133,6 +145,15 @@ std::unique_ptr<Integrator> make_recursive(Scene const& scene, RenderPlan const&
     generations.splits = options.integer("splits", 1, most_splits, 2);
     options.finish();
     return std::make_unique<Recursive>(scene, plan, settings, generations);
+}
+
+std::unique_ptr<Integrator> with_direct_light(Scene const& scene, RenderPlan const& plan,
+                                              std::shared_ptr<radiosity::RadiosityField const> indirect,
+                                              std::vector<std::string> remarks) {
+    constexpr int generations = 8;  // of mirrors and glass
+    return std::make_unique<Recursive>(scene, plan, DirectLightSettings{.selection = plan.light_selection},
+                                       Generations{.most = plan.max_bounces.value_or(generations)}, std::move(indirect),
+                                       std::move(remarks));
 }
 
 }  // namespace iride

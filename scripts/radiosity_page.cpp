@@ -210,7 +210,7 @@ void print_cost(Json const& rows, std::filesystem::path const& folder) {
         line->seconds.push_back({x, std::log10(r["seconds"].get<double>())});
         line->bytes.push_back({x, std::log10(r["bytes"].get<double>() * 1e-9)});
     }
-    PlotPage page(1300, 500);
+    PlotPage page(1480, 500);
     for (int panel = 0; panel < 2; ++panel) {
         Plot plot(420, 320, {3, 5.7, 1, "log10 patches"},
                   panel == 0 ? PlotAxis{-1, 3, 1, "log10 (time / s)"} : PlotAxis{-2, 1, 1, "log10 (memory / GB)"},
@@ -233,9 +233,11 @@ std::string figure(Json const& v) { return v.is_null() ? "-" : fmt::format("{:.3
 void print_errors(Json const& rows, std::filesystem::path const& folder) {
     fmt::print(
         "\n## Error against time\n\n"
-        "256 x 256 pixels; `radiosity` at its default of about 2500 patches, `path`, and `two-pass`, which is path "
-        "tracing with\n"
-        "the radiosity as control variate. relMSE against a converged picture, whose own error is the last column.\n\n"
+        "256 x 256 pixels; `radiosity` at its default of about 2500 patches, and with 10000 that show what came to "
+        "them "
+        "from no lamp\n"
+        "while lamps are sampled; `path`; and `two-pass`, which is path tracing with the radiosity as control variate. "
+        "relMSE against a converged picture, whose own error is the last column.\n\n"
         "![relMSE over time]({}/error.png)\n\n"
         "| scene | integrator | s before the first sample | s to relMSE 1e-2 | 1e-3 | s to CIEDE2000 1 | least relMSE "
         "| reference |\n"

@@ -22,16 +22,17 @@ VectorDouble point_on_polygon(PatchMesh const& mesh, Patch const& p, Sample2 u) 
     return v[0] + static_cast<double>(b.x()) * (v[k] - v[0]) + static_cast<double>(b.y()) * (v[k + 1] - v[0]);
 }
 
+// By the majority of three rays.
 bool lies_open(PatchTracer const& tracer, Patch const& p, VectorDouble const& at, Sampler& sampler) {
-    constexpr int rays = 4, most_dark = 1;
-    int dark = 0;
+    constexpr int majority = 2;
     Frame const frame = Frame::around(p.normal.cast<float>());
-    for (int k = 0; k < rays; ++k) {
+    for (int dark = 0, light = 0;;) {
         Direction const way = frame.to_world(to_cosine_hemisphere(sampler.next2()));
         auto const hit = tracer.closest(at, p.normal, way.cast<double>());
-        dark += hit && hit->patch < 0;
+        (hit && hit->patch < 0 ? dark : light) += 1;
+        if (dark == majority) return false;
+        if (light == majority) return true;
     }
-    return dark <= most_dark;
 }
 
 std::vector<VectorDouble> open_points(PatchMesh const& mesh, PatchTracer const& tracer, std::size_t patch, int tried) {
@@ -55,12 +56,14 @@ VectorDouble middle_of(std::vector<VectorDouble> const& points) {
 
 void find_open_parts(PatchMesh& mesh) {
     PatchTracer const tracer(mesh, PatchTracer::Fronts::drawn_in);
-    constexpr int first_look = 16, closer_look = 1024;
+    constexpr int first_look = 16, second_look = 128, closer_look = 1024;
     std::vector<std::vector<VectorDouble>> found(mesh.patch.size());
     tbb::parallel_for(std::size_t{0}, mesh.patch.size(), [&](std::size_t i) {
-        if (open_points(mesh, tracer, i, first_look).size() == first_look) return;
+        std::size_t const seen = open_points(mesh, tracer, i, first_look).size();
+        if (seen == first_look) return;
         Patch& p = mesh.patch[i];
-        found[i] = open_points(mesh, tracer, i, closer_look);
+        bool const covered = seen == 0 && open_points(mesh, tracer, i, second_look).empty();
+        if (!covered) found[i] = open_points(mesh, tracer, i, closer_look);
         p.open = static_cast<double>(found[i].size()) / closer_look;
         if (found[i].empty()) return;
         p.centre = middle_of(found[i]);

@@ -109,6 +109,19 @@ SceneRadiosity::SceneRadiosity(Scene const& scene, WavelengthRange const& range,
         field_ = std::make_shared<RadiosityField>(mesh_, nm, to_vertices(mesh_, radiosity_).max(0.0).cast<float>());
 }
 
+std::shared_ptr<RadiosityField const> SceneRadiosity::field_of(Spectra const& of_patches) const {
+    return std::make_shared<RadiosityField>(mesh_, wavelengths_nm(),
+                                            to_vertices(mesh_, of_patches).max(0.0).cast<float>());
+}
+
+Spectra SceneRadiosity::reflected() const {
+    Spectra b = radiosity_;
+    for (Eigen::Index i = 0; i < b.rows(); ++i)
+        if (mesh_.shape[static_cast<std::size_t>(mesh_.patch[static_cast<std::size_t>(i)].shape)]->light >= 0)
+            b.row(i) -= system_.emission.row(i);
+    return b;
+}
+
 void SceneRadiosity::solve_stored(Scene const& scene, std::vector<double> const& nm, FormFactorMethod const& method,
                                   SolverEntry const& solver, Settings const& settings, bool mirrors) {
     int const fineness = fineness_of(settings, method);

@@ -50,6 +50,11 @@ class SceneRadiosity {
     std::vector<double> const& wavelengths_nm() const { return field_->wavelengths_nm(); }
     Report const& report() const { return report_; }
     std::shared_ptr<RadiosityField const> field() const { return field_; }
+    // Any [patch][wavelength] as something to be looked at.
+    std::shared_ptr<RadiosityField const> field_of(Spectra const& of_patches) const;
+    // What patches send out without what their lamps emit; and of that, what did not come straight from a lamp.
+    Spectra reflected() const;
+    Spectra indirect() const { return system_.reflectance * gathered(system_, reflected()); }
     PatchTracer const& tracer() const { return field_->tracer(); }
     Radiance radiance(PatchHit const& hit, Wavelengths const& wavelengths) const {
         return field_->radiance(hit, wavelengths);

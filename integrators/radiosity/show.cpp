@@ -2,6 +2,7 @@
 // The integrator that looks at a solution: the first patch along a camera ray that is no mirror, or the environment.
 #include "integrators/radiosity/mirrors.h"
 #include "integrators/radiosity/radiosity.h"
+#include "integrators/recursive.h"
 
 namespace iride::radiosity {
 
@@ -55,8 +56,22 @@ std::unique_ptr<Integrator> show(std::shared_ptr<RadiosityField const> field, st
 }
 
 std::unique_ptr<Integrator> make_radiosity(Scene const& scene, RenderPlan const& plan, IntegratorOptions& options) {
+    constexpr std::pair<char const*, bool> direct_light[]{{"patches", false}, {"lamps", true}};
+    constexpr std::pair<char const*, char const*> methods[]{{"rays", "rays"},
+                                                            {"hemicube", "hemicube"},
+                                                            {"hemisphere", "hemisphere"},
+                                                            {"global-lines", "global-lines"},
+                                                            {"analytic", "analytic"},
+                                                            {"hierarchical", "hierarchical"}};
+    Settings settings{.wavelengths = 95};  // 5 nm apart, as illuminants are tabulated
+    bool const from_lamps = options.one_of("direct_light", direct_light, false);
+    settings.patches = options.integer("patches", 1, 1000000, settings.patches);
+    settings.wavelengths = options.integer("wavelengths", 2, 1000, settings.wavelengths);
+    settings.form_factors = options.one_of("form_factors", methods, "rays");
     options.finish();
-    SceneRadiosity const solution(scene, plan.wavelengths, {});
+    SceneRadiosity const solution(scene, plan.wavelengths, settings);
+    if (from_lamps)
+        return with_direct_light(scene, plan, solution.field_of(solution.indirect()), solution.report().remarks);
     return show(solution.field(), solution.report().remarks);
 }
 

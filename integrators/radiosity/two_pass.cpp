@@ -3,7 +3,6 @@
 
 #include "integrators/arrival.h"
 #include "integrators/direct_light.h"
-#include "integrators/radiosity/vertex_transfer.h"
 
 namespace iride::radiosity {
 
@@ -135,13 +134,7 @@ class TwoPass final : public Integrator {
 }  // namespace
 
 std::shared_ptr<RadiosityField const> reflected_light(SceneRadiosity const& solution) {
-    PatchMesh const& mesh = solution.mesh();
-    Spectra reflected = solution.radiosity();
-    for (std::size_t i = 0; i < mesh.patch.size(); ++i)
-        if (mesh.shape[static_cast<std::size_t>(mesh.patch[i].shape)]->light >= 0)
-            reflected.row(static_cast<Eigen::Index>(i)) -= solution.system().emission.row(static_cast<Eigen::Index>(i));
-    return std::make_shared<RadiosityField>(mesh, solution.wavelengths_nm(),
-                                            to_vertices(mesh, reflected).max(0.0).cast<float>());
+    return solution.field_of(solution.reflected());
 }
 
 std::unique_ptr<Integrator> two_pass(Scene const& scene, RenderPlan const& plan,

@@ -108,6 +108,15 @@ TEST_CASE("a room with a silver and a gold wall is as bright as by path tracing"
     check_means(*room_with(R"({"type":"conductor","ior":"Au"})", silver), "radiosity", 7e-3);
 }
 
+// Fails when patches show what comes straight from the lamp as well.
+TEST_CASE("lamps' light, sampled, and patches' for the rest are as bright as path tracing", "[law]") {
+    auto const scene =
+        room_with(R"({"type":"diffuse","reflectance":"cornell:green"})", R"({"type":"diffuse","reflectance":0.4})");
+    check_means(*scene, "radiosity:direct_light=lamps,patches=600", 5e-3);
+    check_means(*room_with(silver, R"({"type":"diffuse","reflectance":0.4})"),
+                "radiosity:direct_light=lamps,patches=600", 7e-3);
+}
+
 // Fails, by 6e-4 of the largest radiosity, when the back of a lamp shines at what its plane cuts.
 TEST_CASE("directional radiosity of diffuse surfaces is radiosity", "[law]") {
     auto const scene =
