@@ -79,32 +79,45 @@ double expected_patches(Scene const& scene, double size_m) {
     return expected;
 }
 
-PatchMesh make_patches(Scene const& scene, double size_m) {
-    struct Placed {
-        Shape const* shape;
-        ShapeGeometry geometry;
+namespace {
+
+struct Fronts {
+    PatchMesh mesh;
+    std::vector<Faces> faces;      // [shape]
+    std::vector<int> first_patch;  // likewise
+};
+Fronts cut_fronts(Scene const& scene, double size_m) {
+    Fronts fronts;
+    auto const add = [&](Shape const& shape, ShapeGeometry const& geometry) {
+        fronts.faces.push_back(tessellate(geometry, size_m));
+        fronts.first_patch.push_back(static_cast<int>(fronts.mesh.patch.size()));
+        add_side(fronts.mesh, fronts.faces.back(), static_cast<int>(fronts.mesh.shape.size()), shape.flipped, -1);
+        fronts.mesh.shape.push_back(&shape);
     };
-    std::vector<Placed> all;
-    for (Shape const& s : scene.shapes) all.push_back({&s, s.geometry});
+    for (Shape const& s : scene.shapes) add(s, s.geometry);
     for (InstancePlacement const& i : scene.instances)
         for (Shape const& s : scene.objects[static_cast<std::size_t>(i.object)].shapes)
-            all.push_back({&s, placed(s.geometry, i.to_world, size_m)});
+            add(s, placed(s.geometry, i.to_world, size_m));
+    if (fronts.mesh.shape.empty()) throw InputError({}, "", "radiosity: the scene has no surfaces");
+    return fronts;
+}
 
-    if (all.empty()) throw InputError({}, "", "radiosity: the scene has no surfaces");
+}  // namespace
 
-    PatchMesh fronts;
-    std::vector<Faces> faces;
-    std::vector<int> first;
-    for (Placed const& p : all) {
-        faces.push_back(tessellate(p.geometry, size_m));
-        first.push_back(static_cast<int>(fronts.patch.size()));
-        add_side(fronts, faces.back(), static_cast<int>(fronts.shape.size()), p.shape->flipped, -1);
-        fronts.shape.push_back(p.shape);
-    }
-    std::vector<bool> const lit = lit_backs(scene, fronts, PatchTracer(fronts, PatchTracer::Fronts::drawn_in));
-    PatchMesh mesh = fronts;
-    for (std::size_t s = 0; s < all.size(); ++s)
-        if (lit[s]) add_side(mesh, faces[s], static_cast<int>(s), !all[s].shape->flipped, first[s]);
+double area_of_fronts(Scene const& scene) {
+    constexpr double coarse = 1e9;  // m: the shapes' own faces, uncut
+    double area = 0;
+    for (Patch const& p : cut_fronts(scene, coarse).mesh.patch) area += p.area;
+    return area;
+}
+
+PatchMesh make_patches(Scene const& scene, double size_m) {
+    Fronts const fronts = cut_fronts(scene, size_m);
+    PatchMesh mesh = fronts.mesh;
+    std::vector<bool> const lit = lit_backs(scene, mesh, PatchTracer(mesh, PatchTracer::Fronts::drawn_in));
+    for (std::size_t s = 0; s < lit.size(); ++s)
+        if (lit[s])
+            add_side(mesh, fronts.faces[s], static_cast<int>(s), !mesh.shape[s]->flipped, fronts.first_patch[s]);
     find_open_parts(mesh);
     return mesh;
 }

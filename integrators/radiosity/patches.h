@@ -38,7 +38,8 @@ struct PatchMesh {
 // Fronts only, from the shapes' areas: within a factor of two.
 double expected_patches(Scene const& scene, double size_m);
 
-// Throws InputError for a scene without surfaces.
+// Of all shapes, m^2. Both throw InputError for a scene without surfaces.
+double area_of_fronts(Scene const& scene);
 PatchMesh make_patches(Scene const& scene, double size_m);
 
 // The middle of a patch as a point of its shape.

@@ -19,11 +19,7 @@ namespace iride::radiosity {
 namespace {
 
 double patch_size(Scene const& scene, Settings const& s) {
-    if (s.size_m > 0) return s.size_m;
-    constexpr double coarse = 1e9;  // m: the shapes' own faces, uncut
-    double area = 0;
-    for (PatchMesh const mesh = make_patches(scene, coarse); Patch const& p : mesh.patch) area += p.area;
-    return std::sqrt(area / s.patches);
+    return s.size_m > 0 ? s.size_m : std::sqrt(area_of_fronts(scene) / s.patches);
 }
 
 template <class Entry>

@@ -68,6 +68,11 @@ std::unique_ptr<Integrator> make_radiosity(Scene const& scene, RenderPlan const&
     settings.patches = options.integer("patches", 1, 1000000, settings.patches);
     settings.wavelengths = options.integer("wavelengths", 2, 1000, settings.wavelengths);
     settings.form_factors = options.one_of("form_factors", methods, "rays");
+    if (from_lamps && std::ranges::any_of(scene.materials, is_mirror))
+        options.error_at(
+            "direct_light",
+            "found a mirror among the materials, by which lamps light surfaces that patches would leave out; "
+            "allowed: patches");
     options.finish();
     SceneRadiosity const solution(scene, plan.wavelengths, settings);
     if (from_lamps)

@@ -21,13 +21,23 @@ struct Adaptive {
     std::optional<Crop> crop = {};
     int threads = 0;
 };
+
+// Path tracing of a scene, made ready once for any number of pictures.
+struct Ready {
+    Scene const& scene;
+    RenderPlan plan = make_plan(scene);
+    std::unique_ptr<Integrator> path = make_integrator("path", scene, plan);
+
+    Film adaptive(std::optional<ErrorTarget> const& target, std::uint64_t seed, Adaptive const& how) const {
+        AdaptiveState state = make_adaptive_state(scene, how.crop);
+        RenderSettings const settings{.spp = how.spp, .seed = seed, .sampler = how.sampler, .threads = how.threads};
+        render_adaptively(scene, plan, *path, settings, target, state.films, state.round);
+        return picture_of(state.films);
+    }
+};
 Film adaptive(Scene const& scene, std::optional<ErrorTarget> const& target, std::uint64_t seed,
               Adaptive const& how = {}) {
-    RenderPlan const plan = make_plan(scene);
-    AdaptiveState state = make_adaptive_state(scene, how.crop);
-    RenderSettings const settings{.spp = how.spp, .seed = seed, .sampler = how.sampler, .threads = how.threads};
-    render_adaptively(scene, plan, *make_integrator("path", scene, plan), settings, target, state.films, state.round);
-    return picture_of(state.films);
+    return Ready{scene}.adaptive(target, seed, how);
 }
 
 std::unique_ptr<Scene> small(char const* name, int width, int height) {
@@ -59,15 +69,15 @@ std::unique_ptr<Scene> spark(double width) {
 // samples that are rare then count for less).
 TEST_CASE("the mean of adaptive pictures is that of uniform ones", "[law]") {
     auto const scene = spark(0.1);
+    Ready const ready{*scene};
     Crop const around{12, 4, 16, 8};
     test::Replicated const found = test::replicated(1500, [&](int seed) {
         Film const film =
-            adaptive(*scene, {}, static_cast<std::uint64_t>(seed), {.spp = 64, .crop = around, .threads = 1});
+            ready.adaptive({}, static_cast<std::uint64_t>(seed), {.spp = 64, .crop = around, .threads = 1});
         return test::picture_mean(film)[1].mean;
     });
-    RenderPlan const plan = make_plan(*scene);
     Film uniform = make_film(*scene, around);
-    render(*scene, plan, *make_integrator("path", *scene, plan), {.spp = 1 << 18, .seed = 9999}, uniform);
+    render(*scene, ready.plan, *ready.path, {.spp = 1 << 18, .seed = 9999}, uniform);
     auto const expected = test::picture_mean(uniform)[1];
     double const error = std::hypot(found.error, std::sqrt(expected.variance));
     INFO(found.mean << " against " << expected.mean << ", error " << error);

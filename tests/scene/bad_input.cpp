@@ -169,8 +169,12 @@ TEST_CASE("coatings that are none are refused", "[input]") {
                Contains("materials.a.coating[1].ior.k: values -0.1 .. -0.1 over the render range, allowed: in 0"));
     CHECK_THAT(coated("[" + layer(R"("TiO2:Devore-o")", "50") + "]"),
                Contains("coating[0].ior: 'TiO2:Devore-o' is given on 430..1530 nm, the render range is 360..830 nm"));
-    CHECK_THAT(coated("[" + layer("0", "5") + "]"), Contains("coating[0].ior: n reaches 0"));
-    CHECK_THAT(coated("[" + layer("2", "5") + "]", "0"), Contains("materials.a.ior: n reaches 0"));
+    std::string const nothing = R"({ "n": 0 })";
+    CHECK_THAT(coated("[" + layer(nothing, "5") + "]"), Contains("coating[0].ior: n reaches 0"));
+    CHECK_THAT(coated("[" + layer("2", "5") + "]", nothing), Contains("materials.a.ior: n reaches 0"));
+    CHECK_THAT(coated("[" + layer("0", "5") + "]"),
+               Contains("coating[0].ior: values 0 .. 0 over the render range, allowed: in 0.001 .. 1000") &&
+                   !Contains("reaches"));
     CHECK_THAT(coated("[]"),
                Contains("materials.a.coating: found an array of 0, but an array of 1 .. 32 layers is wanted"));
     CHECK_THAT(coated("7"), Contains("materials.a.coating: found") && Contains("1 .. 32 layers"));
