@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What of each patch lies open. Where a body stands on a floor, the floor's patches go on under it: there no light
-// comes or goes, and b of a patch is the mean over the rest. A point lies against a body when most rays
-// from it meet surfaces from inside, where light cannot reach. A patch's area, centre and points become those of its
-// open part, so that every method sees A_i F_ij = A_j F_ji between open parts.
+// comes or goes, and b of a patch is the mean over the rest. A point lies against a body when most rays from it meet
+// surfaces from inside, where light cannot reach. A patch's area, centre and points become those of its open part, so
+// that every method sees A_i F_ij = A_j F_ji between open parts.
 #pragma once
 
 #include "integrators/radiosity/patches.h"

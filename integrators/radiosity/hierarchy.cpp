@@ -40,14 +40,25 @@ Spectra Hierarchy::gather(Spectra const& b) const {
     Rows mean(nodes, b.cols()), arrived(nodes, b.cols());
     auto const node = [&](Eigen::Index n) -> PatchNode const& { return tree_.node[static_cast<std::size_t>(n)]; };
     auto const patch = [&](PatchNode const& n) { return tree_.order[static_cast<std::size_t>(n.first)]; };
-    for (Eigen::Index n = nodes; n-- > 0;) {
-        if (node(n).is_leaf()) {
-            mean.row(n) = b.row(patch(node(n))).cast<float>() * scale_[patch(node(n))];
-        } else {
-            auto const share = static_cast<float>(node(node(n).left).area / node(n).area);
-            mean.row(n) = share * mean.row(node(n).left) + (1 - share) * mean.row(node(n).right);
+    // Each of few columns by itself, whose rows then follow each other closely in memory.
+    auto const in_columns = [&](auto const& body) {
+        constexpr Eigen::Index together = 16;
+        tbb::parallel_for(Eigen::Index{0}, b.cols(), together, [&](Eigen::Index first) {
+            body([first, count = std::min(together, b.cols() - first)](auto& rows, Eigen::Index row) {
+                return rows.row(row).segment(first, count);
+            });
+        });
+    };
+    in_columns([&](auto const& of) {
+        for (Eigen::Index n = nodes; n-- > 0;) {
+            if (node(n).is_leaf()) {
+                of(mean, n) = of(b, patch(node(n))).template cast<float>() * scale_[patch(node(n))];
+            } else {
+                auto const share = static_cast<float>(node(node(n).left).area / node(n).area);
+                of(mean, n) = share * of(mean, node(n).left) + (1 - share) * of(mean, node(n).right);
+            }
         }
-    }
+    });
     tbb::parallel_for(tbb::blocked_range<Eigen::Index>(0, nodes, 256), [&](auto const& range) {
         for (Eigen::Index n = range.begin(); n < range.end(); ++n) {
             arrived.row(n).setZero();
@@ -56,14 +67,16 @@ Spectra Hierarchy::gather(Spectra const& b) const {
         }
     });
     Spectra sums = Spectra::Zero(b.rows(), b.cols());
-    for (Eigen::Index n = 0; n < nodes; ++n) {
-        if (node(n).is_leaf()) {
-            sums.row(patch(node(n))) = (arrived.row(n) * scale_[patch(node(n))]).cast<double>();
-        } else {
-            arrived.row(node(n).left) += arrived.row(n);
-            arrived.row(node(n).right) += arrived.row(n);
+    in_columns([&](auto const& of) {
+        for (Eigen::Index n = 0; n < nodes; ++n) {
+            if (node(n).is_leaf()) {
+                of(sums, patch(node(n))) = (of(arrived, n) * scale_[patch(node(n))]).template cast<double>();
+            } else {
+                of(arrived, node(n).left) += of(arrived, n);
+                of(arrived, node(n).right) += of(arrived, n);
+            }
         }
-    }
+    });
     return sums;
 }
 

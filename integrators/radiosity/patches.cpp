@@ -119,6 +119,8 @@ PatchMesh make_patches(Scene const& scene, double size_m) {
         if (lit[s])
             add_side(mesh, fronts.faces[s], static_cast<int>(s), !mesh.shape[s]->flipped, fronts.first_patch[s]);
     find_open_parts(mesh);
+    if (std::ranges::all_of(mesh.patch, [](Patch const& p) { return p.open == 0; }))
+        throw InputError({}, "", "radiosity: every surface lies inside of another");
     return mesh;
 }
 

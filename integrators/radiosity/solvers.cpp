@@ -99,13 +99,12 @@ class ConjugateGradients final : public Solver {
   public:
     explicit ConjugateGradients(System const& s)
         : s_(s), scale_((s.reflectance.colwise() / s.area).sqrt()), z_(Spectra::Zero(s.patches(), s.wavelengths())) {
-        residual_ = (s.reflectance.colwise() * s.area).sqrt() * gathered(s, s.emission);
+        residual_ = scale_.colwise() * s.area * gathered(s, s.emission);
         direction_ = residual_;
         norm2_ = residual_.square().colwise().sum();
     }
     void step() override {
-        Spectra const image =
-            direction_ - (s_.reflectance.colwise() * s_.area).sqrt() * gathered(s_, scale_ * direction_);
+        Spectra const image = direction_ - scale_.colwise() * s_.area * gathered(s_, scale_ * direction_);
         Row const length = quotient(norm2_, (direction_ * image).colwise().sum());
         z_ += direction_.rowwise() * length;
         residual_ -= image.rowwise() * length;
@@ -120,7 +119,8 @@ class ConjugateGradients final : public Solver {
     static Row quotient(Row const& a, Row const& b) { return (b > 0).select(a / b.max(1e-300), 0.0); }
 
     System const& s_;
-    Spectra scale_, z_, residual_, direction_;
+    Spectra scale_;  // sqrt(rho / A); times A it is sqrt(rho A)
+    Spectra z_, residual_, direction_;
     Row norm2_;
 };
 
