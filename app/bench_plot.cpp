@@ -57,16 +57,21 @@ void plot_errors(nlohmann::ordered_json const& results, std::filesystem::path co
     PlotAxis const x = axis_around(panels, &PlotPoint::x, "log10 (time / s)"),
                    y = axis_around(panels, &PlotPoint::y, "log10 relMSE");
     std::map<std::string, std::size_t> colour_of;
+    int longest = 0;
     for (Panel const& panel : panels)
-        for (Line const& line : panel.lines) colour_of.emplace(line.integrator, colour_of.size());
+        for (Line const& line : panel.lines) {
+            colour_of.emplace(line.integrator, colour_of.size());
+            longest = std::max(longest, static_cast<int>(line.integrator.size()));
+        }
+    int const legend = 80 + 13 * longest;  // pixels
     constexpr int columns = 3, width = 420, height = 340, right = 30, page_width = 600, page_height = 540;
     int const count = static_cast<int>(panels.size());
     int const used_columns = std::min(columns, count), rows = (count + columns - 1) / columns;
-    PlotPage page(page_width * used_columns + 260, page_height * rows);
+    PlotPage page(page_width * used_columns + legend, page_height * rows);
     for (int i = 0; i < count; ++i) {
         Panel const& panel = panels[static_cast<std::size_t>(i)];
         bool const has_legend = i == used_columns - 1;
-        Plot plot(width, height, x, y, has_legend ? 260 + right : right);
+        Plot plot(width, height, x, y, has_legend ? legend + right : right);
         for (Line const& line : panel.lines) {
             std::size_t const k = colour_of.at(line.integrator);
             Stroke const stroke{line_palette[k % line_palette.size()], 2.5, k >= line_palette.size(), line.integrator};

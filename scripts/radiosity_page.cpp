@@ -210,11 +210,11 @@ void print_cost(Json const& rows, std::filesystem::path const& folder) {
         line->seconds.push_back({x, std::log10(r["seconds"].get<double>())});
         line->bytes.push_back({x, std::log10(r["bytes"].get<double>() * 1e-9)});
     }
-    PlotPage page(1480, 500);
+    PlotPage page(1560, 500);
     for (int panel = 0; panel < 2; ++panel) {
         Plot plot(420, 320, {3, 5.7, 1, "log10 patches"},
                   panel == 0 ? PlotAxis{-1, 3, 1, "log10 (time / s)"} : PlotAxis{-2, 1, 1, "log10 (memory / GB)"},
-                  panel == 0 ? 30 : 290);
+                  panel == 0 ? 30 : 370);
         for (std::size_t k = 0; k < lines.size(); ++k) {
             auto const& points = panel == 0 ? lines[k].seconds : lines[k].bytes;
             Stroke const stroke{line_palette[k % line_palette.size()], 2.5, false, lines[k].name};

@@ -113,6 +113,7 @@ class ConjugateGradients final : public Solver {
         norm2_ = next;
     }
     Spectra radiosity() const override { return s_.emission + scale_ * z_; }
+    std::optional<Spectra> residual() const override { return scale_ * residual_; }
 
   private:
     // 0 where a wavelength is solved already.
@@ -158,8 +159,8 @@ constexpr std::array<SolverEntry, 7> table{{
     {"direct", "LU factors, for small scenes", true, make<Direct>},
 }};
 
-double relative_residual(System const& system, Spectra const& b) {
-    Row const largest = residual(system, b).abs().colwise().maxCoeff(), emitted = system.emission.colwise().maxCoeff();
+double relative(System const& system, Spectra const& residual) {
+    Row const largest = residual.abs().colwise().maxCoeff(), emitted = system.emission.colwise().maxCoeff();
     return (emitted > 0).select(largest / emitted.max(1e-300), 0.0).maxCoeff();
 }
 
@@ -174,16 +175,17 @@ std::unique_ptr<Solver> over_relaxation(System const& system, double omega) {
 Solution solve(System const& system, SolverEntry const& entry, Stop const& stop) {
     auto const solver = entry.make(system);
     Solution solution{solver->radiosity(), 0, 0};
-    // A check costs a product with F, as much as n steps of southwell: it is made at growing distances.
+    // A check may cost a product with F, as much as n steps of southwell: it is made at growing distances.
     int next_check = 1;
     while (solution.iterations < stop.iterations) {
         solver->step();
         if (++solution.iterations < next_check) continue;
         next_check = std::max(next_check + 1, next_check * 9 / 8);
-        if (relative_residual(system, solver->radiosity()) <= stop.tolerance) break;
+        std::optional<Spectra> const known = solver->residual();
+        if (relative(system, known ? *known : residual(system, solver->radiosity())) <= stop.tolerance) break;
     }
     solution.radiosity = solver->radiosity();
-    solution.residual = relative_residual(system, solution.radiosity);
+    solution.residual = relative(system, residual(system, solution.radiosity));
     return solution;
 }
 

@@ -8,13 +8,14 @@
 //   shooting             southwell, whose answer is shot plus unshot plus an ambient share:
 //                        b + sigma / A + rho Phi, Phi = sum sigma / (A_total (1 - mean rho))
 //   conjugate-gradients  on I - S, S = rho^1/2 A^1/2 F A^-1/2 rho^1/2, symmetric by reciprocity;
-//                        b = e + (rho / A)^1/2 z
+//                        b = e + (rho / A)^1/2 z, whose residual is (rho / A)^1/2 times that of z
 //   direct               LU factors of M, a wavelength at a time
 // The book's ambient term lacks the unshot part sigma / A: here it is that of [Cohen 1988]. Southwell and shooting
 // choose by power summed over the wavelengths. [Saad 2003]
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -29,6 +30,8 @@ class Solver {
     virtual void step() = 0;
     // The answer so far.
     virtual Spectra radiosity() const = 0;
+    // e - M b of it, where that is known without another product with F.
+    virtual std::optional<Spectra> residual() const { return std::nullopt; }
 };
 
 struct SolverEntry {
