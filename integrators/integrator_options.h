@@ -36,6 +36,13 @@ class IntegratorOptions {
             if (*found == name) return value;
         return otherwise;
     }
+    // The name of one of a table's entries.
+    template <class Entry>
+    std::string word(std::string const& key, std::span<Entry const> table, std::string const& otherwise) {
+        std::vector<std::string> names;
+        for (Entry const& entry : table) names.emplace_back(entry.name);
+        return fields_.choice(key, names).value_or(otherwise);
+    }
     // An option that is good by itself but not here.
     void error_at(std::string const& key, std::string const& message) { fields_.error_at(key, message); }
 

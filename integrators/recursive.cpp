@@ -15,6 +15,7 @@ struct Generations {
     int most = 1;    // scatterings on the way from a lamp to the camera
     int splits = 1;  // rays that go on from a meeting
 };
+constexpr int usual_generations = 8;  // of mirrors and glass, where no limit is given
 // Beyond this many meetings a chain is no longer parted: the number of rays would double each time.
 constexpr int last_split = 4;
 constexpr int most_splits = 16;
@@ -141,7 +142,7 @@ std::unique_ptr<Integrator> make_recursive(Scene const& scene, RenderPlan const&
     DirectLightSettings settings;
     settings.selection = options.one_of("lights", selections, std::optional(plan.light_selection));
     Generations generations;
-    generations.most = options.integer("generations", 0, 1000, plan.max_bounces.value_or(8));
+    generations.most = options.integer("generations", 0, 1000, plan.max_bounces.value_or(usual_generations));
     generations.splits = options.integer("splits", 1, most_splits, 2);
     options.finish();
     return std::make_unique<Recursive>(scene, plan, settings, generations);
@@ -150,10 +151,9 @@ std::unique_ptr<Integrator> make_recursive(Scene const& scene, RenderPlan const&
 std::unique_ptr<Integrator> with_direct_light(Scene const& scene, RenderPlan const& plan,
                                               std::shared_ptr<radiosity::RadiosityField const> indirect,
                                               std::vector<std::string> remarks) {
-    constexpr int generations = 8;  // of mirrors and glass
     return std::make_unique<Recursive>(scene, plan, DirectLightSettings{.selection = plan.light_selection},
-                                       Generations{.most = plan.max_bounces.value_or(generations)}, std::move(indirect),
-                                       std::move(remarks));
+                                       Generations{.most = plan.max_bounces.value_or(usual_generations)},
+                                       std::move(indirect), std::move(remarks));
 }
 
 }  // namespace iride

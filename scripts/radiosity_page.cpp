@@ -12,7 +12,6 @@
 #include "film/preview.h"
 #include "integrators/radiosity/closed_forms.h"
 #include "integrators/radiosity/radiosity.h"
-#include "integrators/radiosity/vertex_transfer.h"
 #include "integrators/render.h"
 
 namespace iride {
@@ -139,10 +138,8 @@ void print_solvers() {
 
 void draw(Scene const& scene, RenderPlan const& plan, SceneRadiosity const& solution, Spectra const& b,
           std::filesystem::path const& path) {
-    auto const field = std::make_shared<RadiosityField>(solution.mesh(), solution.wavelengths_nm(),
-                                                        to_vertices(solution.mesh(), b).max(0.0).cast<float>());
     Film film = make_film(scene);
-    render(scene, plan, *show(field), {.spp = 16}, film);
+    render(scene, plan, *show(solution.field_of(b)), {.spp = 16}, film);
     write_preview(film, scene.film.white, scene.film.exposure, ColourConfig("").to_display("", ""), path);
 }
 

@@ -16,7 +16,7 @@ struct DirectionalSettings {
     int wavelengths = 8;
     int rays = 4096;  // of form factors, per patch
     Stop stop = {.iterations = 1000, .tolerance = 1e-5};
-    double memory_bytes = 4e9;
+    double memory_bytes = Settings{}.memory_bytes;
 };
 
 class DirectionalRadiosity {

@@ -3,7 +3,6 @@
 
 #include <tbb/parallel_for.h>
 
-#include "base/warp.h"
 #include "integrators/radiosity/polygon_form_factor.h"
 
 namespace iride::radiosity {
@@ -25,10 +24,8 @@ VectorDouble point_on_polygon(PatchMesh const& mesh, Patch const& p, Sample2 u) 
 // By the majority of three rays.
 bool lies_open(PatchTracer const& tracer, Patch const& p, VectorDouble const& at, Sampler& sampler) {
     constexpr int majority = 2;
-    Frame const frame = Frame::around(p.normal.cast<float>());
     for (int dark = 0, light = 0;;) {
-        Direction const way = frame.to_world(to_cosine_hemisphere(sampler.next2()));
-        auto const hit = tracer.closest(at, p.normal, way.cast<double>());
+        auto const hit = tracer.closest(at, p.normal, way_by_cosine(p.normal, sampler));
         (hit && hit->patch < 0 ? dark : light) += 1;
         if (dark == majority) return false;
         if (light == majority) return true;

@@ -3,6 +3,8 @@
 
 #include <Eigen/Geometry>
 
+#include "integrators/radiosity/vertex_transfer.h"
+
 namespace iride::radiosity {
 
 RadiosityField::RadiosityField(PatchMesh mesh, std::vector<double> wavelengths_nm, AtVertex at_vertex)
@@ -50,6 +52,12 @@ Radiance RadiosityField::radiance(PatchHit const& hit, Wavelengths const& wavele
         L.lane[lane] = std::max(0.0f, b) * inverse_pi;
     }
     return L;
+}
+
+std::shared_ptr<RadiosityField const> field_of_patches(PatchMesh mesh, std::vector<double> wavelengths_nm,
+                                                       Spectra const& of_patches) {
+    RadiosityField::AtVertex at_vertex = to_vertices(mesh, of_patches).max(0.0).cast<float>();
+    return std::make_shared<RadiosityField>(std::move(mesh), std::move(wavelengths_nm), std::move(at_vertex));
 }
 
 }  // namespace iride::radiosity

@@ -46,4 +46,8 @@ class RadiosityField {
     AtVertex at_vertex_;
 };
 
+// From what patches send out, [patch][wavelength].
+std::shared_ptr<RadiosityField const> field_of_patches(PatchMesh mesh, std::vector<double> wavelengths_nm,
+                                                       Spectra const& of_patches);
+
 }  // namespace iride::radiosity

@@ -48,12 +48,10 @@ RowOfFactors rays(PatchTracer const& tracer, int count) {
     return [&tracer, count](PatchMesh const& mesh, std::size_t i, RowSums& row) {
         Patch const& p = mesh.patch[i];
         if (p.open == 0) return;
-        Frame const frame = Frame::around(p.normal.cast<float>());
         for (int k = 0; k < count; ++k) {
             Sampler sampler(SamplerKind::sobol, 0, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(k));
-            VectorDouble const from = point_on(mesh, p, sampler.next2());
-            Direction const way = frame.to_world(to_cosine_hemisphere(sampler.next2()));
-            auto const hit = tracer.closest(from, p.normal, way.cast<double>());
+            auto const [from, way] = line_from(mesh, p, sampler);
+            auto const hit = tracer.closest(from, p.normal, way);
             if (hit && hit->patch >= 0) row.add(hit->patch, 1.0 / count);
         }
     };

@@ -86,13 +86,11 @@ namespace {
 double share_that_stays(PatchMesh const& mesh, PatchTracer const& tracer, std::size_t patch, int first, int rays) {
     Patch const& p = mesh.patch[patch];
     if (p.open == 0) return 0;
-    Frame const frame = Frame::around(p.normal.cast<float>());
     int stay = 0;
     for (int k = first; k < first + rays; ++k) {
         Sampler sampler(SamplerKind::sobol, 5, static_cast<std::uint32_t>(patch), static_cast<std::uint32_t>(k));
-        VectorDouble const from = point_on(mesh, p, sampler.next2());
-        Direction const way = frame.to_world(to_cosine_hemisphere(sampler.next2()));
-        auto const hit = tracer.closest(from, p.normal, way.cast<double>());
+        auto const [from, way] = line_from(mesh, p, sampler);
+        auto const hit = tracer.closest(from, p.normal, way);
         stay += hit && hit->patch >= 0;
     }
     return static_cast<double>(stay) / rays;

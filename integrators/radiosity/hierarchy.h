@@ -16,9 +16,9 @@
 namespace iride::radiosity {
 
 struct HierarchyLimits {
-    double tolerance = 1e-7;  // of the emitted power, a link
-    int lines = 4;            // of sight per link
-    double memory_bytes = 4e9;
+    double tolerance;  // of the emitted power, a link
+    int lines;         // of sight per link
+    double memory_bytes;
 };
 
 class Hierarchy final : public Transport {

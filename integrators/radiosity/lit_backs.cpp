@@ -3,7 +3,6 @@
 
 #include <tbb/parallel_for.h>
 
-#include "base/warp.h"
 #include "integrators/radiosity/exposure.h"
 #include "integrators/radiosity/patch_spectra.h"
 
@@ -27,12 +26,12 @@ class LightSeeker {
         VectorDouble at = start, off = side;
         for (int k = 0; k <= reflections; ++k) {
             if (is_shone_on(at, off, side, sampler)) return true;
-            Direction const way = Frame::around(side.cast<float>()).to_world(to_cosine_hemisphere(sampler.next2()));
-            auto const hit = tracer_.closest(at, off, way.cast<double>());
+            VectorDouble const way = way_by_cosine(side, sampler);
+            auto const hit = tracer_.closest(at, off, way);
             if (!hit) return false;
             if (meets_lamp(*hit)) return true;
             if ((hit->position - at).norm() < 2 * before) return false;
-            at = hit->position - before * way.cast<double>();
+            at = hit->position - before * way;
             off.setZero();
             side = front_of(*hit).normal * (hit->patch >= 0 ? 1 : -1);
         }

@@ -3,7 +3,6 @@
 
 #include <tbb/parallel_for.h>
 
-#include "base/warp.h"
 #include "integrators/radiosity/exposure.h"
 #include "integrators/radiosity/form_factor_methods.h"
 #include "integrators/radiosity/patch_spectra.h"
@@ -65,14 +64,12 @@ FormFactors by_rays(PatchMesh const& mesh, PatchTracer const& tracer, Mirrors co
         // Nothing ends at a mirror, so nothing starts there; its row only closes.
         if (mirrors.is_one(i)) return row.add(static_cast<int>(i), 1);
         if (p.open == 0) return;
-        Frame const frame = Frame::around(p.normal.cast<float>());
         for (int k = 0; k < rays; ++k) {
             Sampler sampler(SamplerKind::sobol, 0, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(k));
-            VectorDouble const from = point_on(mesh, p, sampler.next2());
-            Direction const way = frame.to_world(to_cosine_hemisphere(sampler.next2()));
+            auto const [from, way] = line_from(mesh, p, sampler);
             Mirrors::Kept kept = Mirrors::Kept::Ones(wavelengths);
             bool by_mirrors = false;
-            auto const hit = mirrors.follow(tracer, from, p.normal, way.cast<double>(), kept, by_mirrors);
+            auto const hit = mirrors.follow(tracer, from, p.normal, way, kept, by_mirrors);
             if (!hit || hit->patch < 0) continue;
             row.add(hit->patch, 1.0 / rays);
             if (!by_mirrors) continue;

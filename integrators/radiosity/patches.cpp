@@ -112,8 +112,8 @@ double area_of_fronts(Scene const& scene) {
 }
 
 PatchMesh make_patches(Scene const& scene, double size_m) {
-    Fronts const fronts = cut_fronts(scene, size_m);
-    PatchMesh mesh = fronts.mesh;
+    Fronts fronts = cut_fronts(scene, size_m);
+    PatchMesh mesh = std::move(fronts.mesh);
     std::vector<bool> const lit = lit_backs(scene, mesh, PatchTracer(mesh, PatchTracer::Fronts::drawn_in));
     for (std::size_t s = 0; s < lit.size(); ++s)
         if (lit[s])

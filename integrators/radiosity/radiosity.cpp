@@ -12,7 +12,6 @@
 #include "integrators/radiosity/patch_spectra.h"
 #include "integrators/radiosity/solvability.h"
 #include "integrators/radiosity/substructure.h"
-#include "integrators/radiosity/vertex_transfer.h"
 
 namespace iride::radiosity {
 
@@ -47,6 +46,15 @@ std::vector<double> evenly_spaced(WavelengthRange const& range, int count) {
 }
 
 int fineness_of(Settings const& s, FormFactorMethod const& m) { return s.fineness > 0 ? s.fineness : m.fineness; }
+
+// `option`: what wants rows.
+RowOfFactors rows_of(FormFactorMethod const& m, PatchTracer const& tracer, Settings const& s, char const* option) {
+    if (!m.rows)
+        throw InputError(
+            {}, option,
+            fmt::format("form factors by {} come all at once; allowed: rays, hemicube, hemisphere", m.name));
+    return m.rows(tracer, fineness_of(s, m));
+}
 
 void refuse_trapped_light(Scene const& scene, PatchMesh const& mesh, System const& system,
                           std::vector<double> const& nm) {
@@ -102,12 +110,7 @@ SceneRadiosity::SceneRadiosity(Scene const& scene, WavelengthRange const& range,
     if (settings.substructuring > 0)
         substructure(scene, nm, *method, settings);
     else
-        field_ = std::make_shared<RadiosityField>(mesh_, nm, to_vertices(mesh_, radiosity_).max(0.0).cast<float>());
-}
-
-std::shared_ptr<RadiosityField const> SceneRadiosity::field_of(Spectra const& of_patches) const {
-    return std::make_shared<RadiosityField>(mesh_, wavelengths_nm(),
-                                            to_vertices(mesh_, of_patches).max(0.0).cast<float>());
+        field_ = field_of_patches(mesh_, nm, radiosity_);
 }
 
 Spectra SceneRadiosity::reflected() const {
@@ -147,22 +150,23 @@ void SceneRadiosity::solve_stored(Scene const& scene, std::vector<double> const&
         system_.transport = hierarchy;
     }
     refuse_trapped_light(scene, mesh_, system_, nm);
-    Solution const solution = solve(system_, solver, settings.stop);
-    radiosity_ = solution.radiosity;
+    take(solve(system_, solver, settings.stop));
+    say_what_leaks(scene);
+}
+
+void SceneRadiosity::take(Solution solution) {
+    radiosity_ = std::move(solution.radiosity);
     report_.iterations = solution.iterations;
     report_.residual = solution.residual;
-    say_what_leaks(scene);
 }
 
 bool SceneRadiosity::sees_out(std::size_t patch) const {
     constexpr std::uint32_t rays = 64;
     Patch const& p = mesh_.patch[patch];
-    Frame const frame = Frame::around(p.normal.cast<float>());
     for (std::uint32_t k = 0; k < rays; ++k) {
         Sampler sampler(SamplerKind::sobol, 6, static_cast<std::uint32_t>(patch), k);
-        VectorDouble const from = point_on(mesh_, p, sampler.next2());
-        Direction const way = frame.to_world(to_cosine_hemisphere(sampler.next2()));
-        if (!tracer_->closest(from, p.normal, way.cast<double>())) return true;
+        auto const [from, way] = line_from(mesh_, p, sampler);
+        if (!tracer_->closest(from, p.normal, way)) return true;
     }
     return false;
 }
@@ -194,26 +198,17 @@ void SceneRadiosity::solve_on_demand(FormFactorMethod const& method, Settings co
                          fmt::format("found solver '{}', allowed: shooting, the one that wants a row of form factors "
                                      "at a time",
                                      settings.solver));
-    if (!method.rows)
-        throw InputError(
-            {}, "--on-demand",
-            fmt::format("form factors by {} come all at once; allowed: rays, hemicube, hemisphere", method.name));
-    Solution const solution =
-        shoot_on_demand(system_, mesh_, method.rows(*tracer_, fineness_of(settings, method)), settings.stop);
-    radiosity_ = solution.radiosity;
-    report_.iterations = solution.iterations;
-    report_.residual = solution.residual;
+    take(shoot_on_demand(system_, mesh_, rows_of(method, *tracer_, settings, "--on-demand"), settings.stop));
 }
 
 void SceneRadiosity::solve_by_lines(Settings const& settings, StochasticEntry const& entry) {
     GlobalLines const lines(mesh_, *tracer_);
     LineSource const source{
-        [&](int from, Sampler& sampler) {
-            Patch const& p = mesh_.patch[static_cast<std::size_t>(from)];
+        [&](int patch, Sampler& sampler) {
+            Patch const& p = mesh_.patch[static_cast<std::size_t>(patch)];
             if (p.open == 0) return -1;
-            VectorDouble const at = point_on(mesh_, p, sampler.next2());
-            Direction const way = Frame::around(p.normal.cast<float>()).to_world(to_cosine_hemisphere(sampler.next2()));
-            auto const hit = tracer_->closest(at, p.normal, way.cast<double>());
+            auto const [from, way] = line_from(mesh_, p, sampler);
+            auto const hit = tracer_->closest(from, p.normal, way);
             return hit ? hit->patch : -1;
         },
         [&](std::uint32_t series, std::uint32_t number, std::function<void(int, int)> const& faces) {
@@ -231,11 +226,7 @@ void SceneRadiosity::solve_by_lines(Settings const& settings, StochasticEntry co
 
 void SceneRadiosity::substructure(Scene const& scene, std::vector<double> const& nm, FormFactorMethod const& method,
                                   Settings const& settings) {
-    if (!method.rows)
-        throw InputError(
-            {}, "--substructuring",
-            fmt::format("form factors by {} come all at once; allowed: rays, hemicube, hemisphere", method.name));
-    RowOfFactors const row = method.rows(*tracer_, fineness_of(settings, method));
+    RowOfFactors const row = rows_of(method, *tracer_, settings, "--substructuring");
     Elements elements = whole_patches(mesh_);
     Spectra b = radiosity_;
     for (int level = 0; level < settings.substructuring; ++level) {
@@ -248,14 +239,10 @@ void SceneRadiosity::substructure(Scene const& scene, std::vector<double> const&
         system_.transport.reset();
         refuse_trapped_light(scene, mesh_, system_, nm);
         // Not conjugate gradients: the mean of the elements' rows is reciprocal only on average.
-        Solution const solution = solve(system_, *find(solvers(), "gauss-seidel"), settings.stop);
-        radiosity_ = solution.radiosity;
-        report_.iterations = solution.iterations;
-        report_.residual = solution.residual;
+        take(solve(system_, *find(solvers(), "gauss-seidel"), settings.stop));
         b = radiosity_of_elements(system_, elements, of_elements, radiosity_);
     }
-    RadiosityField::AtVertex at_vertex = to_vertices(elements.mesh, b).max(0.0).cast<float>();
-    field_ = std::make_shared<RadiosityField>(std::move(elements.mesh), nm, std::move(at_vertex));
+    field_ = field_of_patches(std::move(elements.mesh), nm, b);
 }
 
 }  // namespace iride::radiosity

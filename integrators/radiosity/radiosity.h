@@ -51,7 +51,9 @@ class SceneRadiosity {
     Report const& report() const { return report_; }
     std::shared_ptr<RadiosityField const> field() const { return field_; }
     // Any [patch][wavelength] as something to be looked at.
-    std::shared_ptr<RadiosityField const> field_of(Spectra const& of_patches) const;
+    std::shared_ptr<RadiosityField const> field_of(Spectra const& of_patches) const {
+        return field_of_patches(mesh_, wavelengths_nm(), of_patches);
+    }
     // What patches send out without what their lamps emit; and of that, what did not come straight from a lamp.
     Spectra reflected() const;
     Spectra indirect() const { return system_.reflectance * gathered(system_, reflected()); }
@@ -63,6 +65,7 @@ class SceneRadiosity {
   private:
     void solve_stored(Scene const& scene, std::vector<double> const& nm, FormFactorMethod const& method,
                       SolverEntry const& solver, Settings const& settings, bool mirrors);
+    void take(Solution solution);
     void say_what_leaks(Scene const& scene);
     bool sees_out(std::size_t patch) const;
     void solve_on_demand(FormFactorMethod const& method, Settings const& settings);

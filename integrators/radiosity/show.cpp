@@ -57,17 +57,11 @@ std::unique_ptr<Integrator> show(std::shared_ptr<RadiosityField const> field, st
 
 std::unique_ptr<Integrator> make_radiosity(Scene const& scene, RenderPlan const& plan, IntegratorOptions& options) {
     constexpr std::pair<char const*, bool> direct_light[]{{"patches", false}, {"lamps", true}};
-    constexpr std::pair<char const*, char const*> methods[]{{"rays", "rays"},
-                                                            {"hemicube", "hemicube"},
-                                                            {"hemisphere", "hemisphere"},
-                                                            {"global-lines", "global-lines"},
-                                                            {"analytic", "analytic"},
-                                                            {"hierarchical", "hierarchical"}};
     Settings settings{.wavelengths = 95};  // 5 nm apart, as illuminants are tabulated
     bool const from_lamps = options.one_of("direct_light", direct_light, false);
     settings.patches = options.integer("patches", 1, 1000000, settings.patches);
     settings.wavelengths = options.integer("wavelengths", 2, 1000, settings.wavelengths);
-    settings.form_factors = options.one_of("form_factors", methods, "rays");
+    settings.form_factors = options.word("form_factors", form_factor_methods(), settings.form_factors);
     if (from_lamps && std::ranges::any_of(scene.materials, is_mirror))
         options.error_at(
             "direct_light",

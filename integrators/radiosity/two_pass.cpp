@@ -133,10 +133,6 @@ class TwoPass final : public Integrator {
 
 }  // namespace
 
-std::shared_ptr<RadiosityField const> reflected_light(SceneRadiosity const& solution) {
-    return solution.field_of(solution.reflected());
-}
-
 std::unique_ptr<Integrator> two_pass(Scene const& scene, RenderPlan const& plan,
                                      std::shared_ptr<RadiosityField const> reflected, TwoPassSettings const& settings) {
     return std::make_unique<TwoPass>(scene, plan, std::move(reflected), settings);
@@ -150,7 +146,8 @@ std::unique_ptr<Integrator> make_two_pass(Scene const& scene, RenderPlan const& 
     settings.go_on = static_cast<float>(
         options.number("go_on", {.least = 0, .most = 1, .least_excluded = true}, static_cast<double>(settings.go_on)));
     options.finish();
-    return two_pass(scene, plan, reflected_light(SceneRadiosity(scene, plan.wavelengths, solution)), settings);
+    SceneRadiosity const known(scene, plan.wavelengths, solution);
+    return two_pass(scene, plan, known.field_of(known.reflected()), settings);
 }
 
 }  // namespace iride::radiosity

@@ -17,9 +17,7 @@ struct TwoPassSettings {
     float go_on = 0.35f;  // q there; farther along it is the share of light that the scattering keeps
 };
 
-// What patches reflect: the solution without what its lamps emit.
-std::shared_ptr<RadiosityField const> reflected_light(SceneRadiosity const& solution);
-
+// `reflected`: what patches send out without what their lamps emit.
 std::unique_ptr<Integrator> two_pass(Scene const& scene, RenderPlan const& plan,
                                      std::shared_ptr<RadiosityField const> reflected, TwoPassSettings const& settings);
 

@@ -14,8 +14,8 @@ namespace {
 // A solution whose values are replaced by `wrong`, vertex by vertex.
 template <class Wrong>
 std::shared_ptr<RadiosityField const> spoilt(Scene const& scene, WavelengthRange const& range, Wrong const& wrong) {
-    auto const right =
-        reflected_light(SceneRadiosity(scene, range, {.patches = 100, .wavelengths = 8, .fineness = 64}));
+    SceneRadiosity const solution(scene, range, {.patches = 100, .wavelengths = 8, .fineness = 64});
+    auto const right = solution.field_of(solution.reflected());
     RadiosityField::AtVertex values = right->at_vertex();
     for (Eigen::Index v = 0; v < values.rows(); ++v)
         for (Eigen::Index w = 0; w < values.cols(); ++w) values(v, w) = wrong(v, values(v, w));
