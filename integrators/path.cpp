@@ -6,6 +6,7 @@
 
 #include "integrators/arrival.h"
 #include "integrators/flight.h"
+#include "integrators/radiosity/field.h"
 
 namespace iride {
 
@@ -89,6 +90,7 @@ struct Walk {
     RayCone cone;  // 0 wide unless the plan carries it
     VertexNumbers numbers;
     bool has_hit;
+    bool light_is_known = false;  // of the next surface, but for what it emits
     Hit hit;
     LightSample const* light;      // that of the lamp asked; null: none
     LightSelector::Choice choice;  // of that lamp
@@ -111,13 +113,16 @@ struct Walk {
 template <bool Dispersive, bool Media, bool Scattering = false>
 class Path final : public Integrator {
   public:
-    Path(Scene const& scene, RenderPlan const& plan)
-        : selector_(scene.lights, plan.light_selection),
+    Path(Scene const& scene, RenderPlan const& plan, KnownIndirect known)
+        : known_(std::move(known)),
+          selector_(scene.lights, plan.light_selection),
           max_bounces_(plan.max_bounces.value_or(longest_path)),
           light_sampling_(plan.light_sampling),
           environment_(plan.environment),
           camera_in_(plan.camera_in),
           ray_cones_(plan.ray_cones) {}
+
+    std::vector<std::string> remarks() const override { return known_.remarks; }
 
     void follow(Scene const& scene, std::span<CameraPath> paths, RayStatistics& statistics) const override {
         Walks walks;
@@ -136,6 +141,7 @@ class Path final : public Integrator {
             if constexpr (Media)
                 alive.keep_if([&](std::size_t i) { return travel_on(scene, paths[i], walks[i], statistics); });
             alive.keep_if([&](std::size_t i) { return arrive(scene, paths[i], walks[i], bounce); });
+            if (known_.field) bring_known(scene, paths, walks, alive, bounce, statistics);
             if (light_sampling_) ask_lights(scene, paths, walks, alive, between);
             alive.keep_if([&](std::size_t i) {
                 return scatter(scene, paths[i], walks[i], between.shadows) &&
@@ -150,6 +156,15 @@ class Path final : public Integrator {
     using Walk = iride::Walk<Media, Scattering>;
     using Walks = std::array<Walk, batch_size>;
 
+    // Neighbours leave the camera together; after a scattering each goes its own way.
+    static Accelerator::Coherence coherence(int bounce) {
+        return bounce == 0 ? Accelerator::Coherence::close : Accelerator::Coherence::none;
+    }
+    // Whether the surface scatters other than by Dirac lobes.
+    static bool is_dense(Scene const& scene, Walk const& walk) {
+        return scene.material(walk.hit.shape->material).traits.has_density;
+    }
+
     static void find_hits(Scene const& scene, std::span<CameraPath const> paths, Walks& walks, Alive const& alive,
                           int bounce, std::array<ClosestQuery, batch_size>& queries, RayStatistics& statistics) {
         std::size_t count = 0;
@@ -159,9 +174,7 @@ class Path final : public Integrator {
             query.hit = &walks[i].hit;
             query.cone = walks[i].cone;
         });
-        // Neighbours leave the camera together; after a scattering each goes its own way.
-        auto const coherence = bounce == 0 ? Accelerator::Coherence::close : Accelerator::Coherence::none;
-        scene.accelerator->closest(std::span(queries).first(count), coherence, statistics);
+        scene.accelerator->closest(std::span(queries).first(count), coherence(bounce), statistics);
         count = 0;
         alive.for_each([&](std::size_t i) { walks[i].has_hit = queries[count++].found; });
     }
@@ -231,6 +244,7 @@ class Path final : public Integrator {
             return false;
         }
         if (walk.hit.shape->light >= 0) path.bring(walk.hit.shape->light, from_emitter(scene, path, walk));
+        if (walk.light_is_known) return false;
         if (bounce >= max_bounces_) {
             path.complete = max_bounces_ < longest_path;
             return false;
@@ -260,13 +274,33 @@ class Path final : public Integrator {
         return walk.state.weight * Le * (1 / mixture(walk, p));
     }
 
+    // What the patches send out, in the directions of the paths, where these scatter next.
+    void bring_known(Scene const& scene, std::span<CameraPath> paths, Walks const& walks, Alive const& alive,
+                     int bounce, RayStatistics& statistics) const {
+        std::array<radiosity::PatchQuery, batch_size> queries;
+        std::array<std::size_t, batch_size> of;
+        std::size_t count = 0;
+        alive.for_each([&](std::size_t i) {
+            if (walks[i].is_afloat() || !is_dense(scene, walks[i])) return;
+            queries[count].ray = &paths[i].ray;
+            of[count++] = i;
+        });
+        known_.field->tracer().closest(std::span(queries).first(count), coherence(bounce), statistics);
+        for (std::size_t k = 0; k < count; ++k) {
+            CameraPath& path = paths[of[k]];
+            PathState const& state = walks[of[k]].state;
+            Radiance const sent = known_.field->radiance(queries[k].hit, path.wavelengths);
+            path.radiance += state.weight * sent * (1 / (Dispersive ? float(mean(state.reach)) : 1.0f));
+        }
+    }
+
     // Choose a light for each vertex that can use one; ask each light for all its samples at a time.
     void ask_lights(Scene const& scene, std::span<CameraPath const> paths, Walks& walks, Alive const& alive,
                     Exchange& between) const {
         std::size_t count = 0;
         alive.for_each([&](std::size_t i) {
             walks[i].light = nullptr;
-            if (!walks[i].is_afloat() && !scene.material(walks[i].hit.shape->material).traits.has_density) return;
+            if (!walks[i].is_afloat() && !is_dense(scene, walks[i])) return;
             auto const choice =
                 selector_.choose(receiver_of(scene, -paths[i].ray.direction, walks[i]), walks[i].numbers.choices.x);
             if (choice.light >= 0) between.asking[count++] = {i, choice};
@@ -356,6 +390,7 @@ class Path final : public Integrator {
         }
         walk.state.weight *= sample->weight;
         walk.arrival.density = sample->density;
+        walk.light_is_known = known_.field && sample->density;
         walk.arrival.from = receiver_of(scene, to_viewer, walk);
         if (ray_cones_)
             walk.cone = walk.cone.scattered(walk.hit.distance, sample->density ? &*sample->density : nullptr);
@@ -378,6 +413,7 @@ class Path final : public Integrator {
         return true;
     }
 
+    KnownIndirect known_;
     LightSelector selector_;
     int max_bounces_;
     bool light_sampling_, environment_;
@@ -388,12 +424,17 @@ class Path final : public Integrator {
 }  // namespace
 
 std::unique_ptr<Integrator> make_path(Scene const& scene, RenderPlan const& plan, IntegratorOptions&) {
-    if (plan.scattering) return std::make_unique<Path<true, true, true>>(scene, plan);
+    return path_until_known(scene, plan, {});
+}
+
+std::unique_ptr<Integrator> path_until_known(Scene const& scene, RenderPlan const& plan, KnownIndirect known) {
+    auto const make = [&]<bool... Needs>()->std::unique_ptr<Integrator> {
+        return std::make_unique<Path<Needs...>>(scene, plan, std::move(known));
+    };
+    if (plan.scattering) return make.template operator()<true, true, true>();
     if (plan.media)
-        return plan.dispersion ? std::unique_ptr<Integrator>(std::make_unique<Path<true, true>>(scene, plan))
-                               : std::make_unique<Path<false, true>>(scene, plan);
-    return plan.dispersion ? std::unique_ptr<Integrator>(std::make_unique<Path<true, false>>(scene, plan))
-                           : std::make_unique<Path<false, false>>(scene, plan);
+        return plan.dispersion ? make.template operator()<true, true>() : make.template operator()<false, true>();
+    return plan.dispersion ? make.template operator()<true, false>() : make.template operator()<false, false>();
 }
 
 }  // namespace iride

@@ -13,7 +13,20 @@
 
 namespace iride {
 
+namespace radiosity {
+class RadiosityField;
+}
+
+// A solution that tells what surfaces send out of light that came to them from no lamp; and what the user is told of
+// it.
+struct KnownIndirect {
+    std::shared_ptr<radiosity::RadiosityField const> field = nullptr;
+    std::vector<std::string> remarks{};
+};
+
 std::unique_ptr<Integrator> make_path(Scene const& scene, RenderPlan const& plan, IntegratorOptions& options);
+// `path` to where it first scatters other than by Dirac lobes: there lamps are sampled, and the rest is known.
+std::unique_ptr<Integrator> path_until_known(Scene const& scene, RenderPlan const& plan, KnownIndirect known);
 std::unique_ptr<Integrator> make_reference_path(Scene const& scene, RenderPlan const& plan, IntegratorOptions& options);
 
 }  // namespace iride

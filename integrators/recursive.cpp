@@ -5,7 +5,6 @@
 #include <array>
 
 #include "integrators/direct_light.h"
-#include "integrators/radiosity/field.h"
 
 namespace iride {
 
@@ -15,7 +14,6 @@ struct Generations {
     int most = 1;    // scatterings on the way from a lamp to the camera
     int splits = 1;  // rays that go on from a meeting
 };
-constexpr int usual_generations = 8;  // of mirrors and glass, where no limit is given
 // Beyond this many meetings a chain is no longer parted: the number of rays would double each time.
 constexpr int last_split = 4;
 constexpr int most_splits = 16;
@@ -23,16 +21,12 @@ constexpr int most_splits = 16;
 class Recursive final : public Integrator {
   public:
     Recursive(Scene const& scene, RenderPlan const& plan, DirectLightSettings const& settings,
-              Generations const& generations, std::shared_ptr<radiosity::RadiosityField const> indirect = nullptr,
-              std::vector<std::string> remarks = {})
+              Generations const& generations)
         : direct_(scene, settings),
           generations_(generations),
-          indirect_(std::move(indirect)),
-          remarks_(std::move(remarks)),
           lamps_(scene.lights.has_power()),
           camera_in_(plan.media ? plan.camera_in : Surroundings()) {}
 
-    std::vector<std::string> remarks() const override { return remarks_; }
     void follow(Scene const& scene, std::span<CameraPath> paths, RayStatistics& statistics) const override {
         for (CameraPath& path : paths) {
             Tree tree{scene, path, statistics};
@@ -74,11 +68,6 @@ class Recursive final : public Integrator {
         for (int i = 0; i < splits; ++i) directions[static_cast<std::size_t>(i)] = path.sampler.next2();
         if (lamps_)
             path.radiance += direct_.at({scene, hit, here, path.wavelengths, state, in}, path.sampler, statistics);
-        if (indirect_ && here.bsdf.has_density()) {
-            ++statistics.closest_rays;
-            if (auto const patch = indirect_->tracer().closest(ray))
-                path.radiance += state.weight * indirect_->radiance(*patch, path.wavelengths) * (1 / mean(state.reach));
-        }
         for (int i = 0; i < splits; ++i) {
             constexpr float below_one = 0x1.fffffep-1f;  // the sum may round up
             float const lobe = std::min((static_cast<float>(i) + first) / static_cast<float>(splits), below_one);
@@ -96,8 +85,6 @@ class Recursive final : public Integrator {
 
     DirectLight direct_;
     Generations generations_;
-    std::shared_ptr<radiosity::RadiosityField const> indirect_;
-    std::vector<std::string> remarks_;
     bool lamps_;
     std::optional<Surroundings> camera_in_;  // absent: to be found for each path
 };
@@ -142,18 +129,10 @@ std::unique_ptr<Integrator> make_recursive(Scene const& scene, RenderPlan const&
     DirectLightSettings settings;
     settings.selection = options.one_of("lights", selections, std::optional(plan.light_selection));
     Generations generations;
-    generations.most = options.integer("generations", 0, 1000, plan.max_bounces.value_or(usual_generations));
+    generations.most = options.integer("generations", 0, 1000, plan.max_bounces.value_or(8));
     generations.splits = options.integer("splits", 1, most_splits, 2);
     options.finish();
     return std::make_unique<Recursive>(scene, plan, settings, generations);
-}
-
-std::unique_ptr<Integrator> with_direct_light(Scene const& scene, RenderPlan const& plan,
-                                              std::shared_ptr<radiosity::RadiosityField const> indirect,
-                                              std::vector<std::string> remarks) {
-    return std::make_unique<Recursive>(scene, plan, DirectLightSettings{.selection = plan.light_selection},
-                                       Generations{.most = plan.max_bounces.value_or(usual_generations)},
-                                       std::move(indirect), std::move(remarks));
 }
 
 }  // namespace iride

@@ -44,14 +44,13 @@ Radiance RadiosityField::radiance(PatchHit const& hit, Wavelengths const& wavele
     }
     if (!(total > 0)) return L;
     WavelengthCells const cells(nm_, wavelengths);
-    for (int lane = 0; lane < lane_count; ++lane) {
-        float b = 0;
-        for (std::size_t k = 0; k < n; ++k)
-            b += static_cast<float>(weight[k] / total) *
-                 cells.at(lane, [&](Eigen::Index column) { return at_vertex_(p.vertex[k], column); });
-        L.lane[lane] = std::max(0.0f, b) * inverse_pi;
+    for (std::size_t k = 0; k < n; ++k) {
+        float const* const of_vertex = at_vertex_.row(p.vertex[k]).data();
+        auto const share = static_cast<float>(weight[k] / total);
+        for (int lane = 0; lane < lane_count; ++lane)
+            L.lane[lane] += share * cells.at(lane, [&](Eigen::Index column) { return of_vertex[column]; });
     }
-    return L;
+    return max(Radiance(), L) * inverse_pi;
 }
 
 std::shared_ptr<RadiosityField const> field_of_patches(PatchMesh mesh, std::vector<double> wavelengths_nm,

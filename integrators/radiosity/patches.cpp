@@ -152,13 +152,31 @@ PatchTracer::PatchTracer(PatchMesh const& mesh, Fronts fronts) {
         std::make_unique<Accelerator>(shapes_, std::vector<ObjectGeometry>{}, std::vector<InstancePlacement>{});
 }
 
+PatchHit PatchTracer::patch_met(Ray const& ray, Hit const& hit) const {
+    bool const front = ray.direction.dot(hit.point.geometric_normal) < 0;
+    std::array<int, 2> const& side = sides_[hit.primitive];
+    return {side[front ? 0 : 1], side[front ? 1 : 0], hit.point.position.cast<double>()};
+}
+
 std::optional<PatchHit> PatchTracer::closest(Ray const& ray) const {
     RayStatistics unused;
     std::optional<Hit> const hit = accelerator_->closest(ray, unused);
     if (!hit) return std::nullopt;
-    bool const front = ray.direction.dot(hit->point.geometric_normal) < 0;
-    std::array<int, 2> const& side = sides_[hit->primitive];
-    return PatchHit{side[front ? 0 : 1], side[front ? 1 : 0], hit->point.position.cast<double>()};
+    return patch_met(ray, *hit);
+}
+
+void PatchTracer::closest(std::span<PatchQuery> queries, Accelerator::Coherence coherence,
+                          RayStatistics& statistics) const {
+    constexpr std::size_t together = 64;
+    std::array<Hit, together> hits;
+    std::array<ClosestQuery, together> rays;
+    for (; !queries.empty(); queries = queries.subspan(std::min(together, queries.size()))) {
+        std::size_t const count = std::min(together, queries.size());
+        for (std::size_t k = 0; k < count; ++k) rays[k] = {queries[k].ray, &hits[k]};
+        accelerator_->closest(std::span(rays).first(count), coherence, statistics);
+        for (std::size_t k = 0; k < count; ++k)
+            if (rays[k].found) queries[k].hit = patch_met(*queries[k].ray, hits[k]);
+    }
 }
 
 std::optional<PatchHit> PatchTracer::closest(VectorDouble const& from, VectorDouble const& side,

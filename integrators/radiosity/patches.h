@@ -55,6 +55,11 @@ struct PatchHit {
     VectorDouble position;
 };
 
+struct PatchQuery {
+    Ray const* ray;
+    PatchHit hit = {-1, -1, {}};  // where nothing is met: no patch
+};
+
 // Rays among patches. Points lie on patches; what is traced starts `clearance` off the patch, on its side.
 class PatchTracer {
   public:
@@ -66,11 +71,15 @@ class PatchTracer {
                                     VectorDouble const& direction) const;
     // The same for a ray that starts in the open.
     std::optional<PatchHit> closest(Ray const& ray) const;
+    // The same for many.
+    void closest(std::span<PatchQuery> queries, Accelerator::Coherence coherence, RayStatistics& statistics) const;
     // Whether nothing stands between points of two patches.
     bool visible(VectorDouble const& from, VectorDouble const& side, VectorDouble const& to,
                  VectorDouble const& other_side) const;
 
   private:
+    PatchHit patch_met(Ray const& ray, Hit const& hit) const;
+
     std::vector<std::array<int, 2>> sides_;  // [triangle] patch of its front and back
     std::vector<Shape> shapes_;
     std::unique_ptr<Accelerator> accelerator_;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The integrator that looks at a solution: the first patch along a camera ray that is no mirror, or the environment.
+#include "integrators/path.h"
 #include "integrators/radiosity/mirrors.h"
 #include "integrators/radiosity/radiosity.h"
-#include "integrators/recursive.h"
 
 namespace iride::radiosity {
 
@@ -70,7 +70,7 @@ std::unique_ptr<Integrator> make_radiosity(Scene const& scene, RenderPlan const&
     options.finish();
     SceneRadiosity const solution(scene, plan.wavelengths, settings);
     if (from_lamps)
-        return with_direct_light(scene, plan, solution.field_of(solution.indirect()), solution.report().remarks);
+        return path_until_known(scene, plan, {solution.field_of(solution.indirect()), solution.report().remarks});
     return show(solution.field(), solution.report().remarks);
 }
 
