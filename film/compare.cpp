@@ -17,13 +17,12 @@ Comparison compare(XyzPicture const& a, XyzPicture const& b) {
                                      b.xyz.width, b.xyz.height));
     Comparison result{a.xyz.width, a.xyz.height, 0, 0, 0, 0, 0};
     Xyz const white = to_xyz(named_white("D65"), 1);
-    constexpr double floor = 0.01;  // keeps black pixels from ruling the mean
     for (std::size_t i = 0; i < a.xyz.pixel.size(); ++i) {
         Xyz const &p = a.xyz.pixel[i], &q = b.xyz.pixel[i];
         for (double Xyz::*c : {&Xyz::X, &Xyz::Y, &Xyz::Z}) {
             double const d2 = square(p.*c - q.*c);
             result.mse += d2;
-            result.relmse += d2 / (square(q.*c) + floor);
+            result.relmse += d2 / (square(q.*c) + relmse_floor);
         }
         double const de = delta_e_2000(to_lab(p, white), to_lab(q, white));
         result.delta_e_2000_mean += de;

@@ -53,7 +53,7 @@ def title(words, text):
 
 def peers(rows):
     title("Beside other renderers",
-          "256 x 256 pixels, 64 samples each, 2 threads. relMSE as `iride compare` has it; ours against our references, theirs, "
+          "256 x 256 pixels, 64 samples each, 2 threads. relMSE as `iride compare` has it; ours against our references, whose own is left out, theirs, "
           "measured elsewhere on 2 threads of a 2.8 GHz machine of this class, against pbrt at 1024 samples: times of two machines "
           "are for orientation. Ours are medians with the least and the most; 8 wavelengths a path, theirs 4.")
     lines = []
@@ -74,8 +74,9 @@ def peers(rows):
 def errors(rows):
     title("Error against time",
           "256 x 256 pixels; relMSE and mean CIEDE2000 against the mean of two independent long renders, whose own error (bar) is a "
-          "quarter of the relMSE and half of the CIEDE2000 between them. Each sample count is a render of its own; `slope` is fitted to "
-          "log relMSE over log time where relMSE is more than 4 bars (-1: independent samples). ~: some of the three times is "
+          "quarter of the relMSE and half of the CIEDE2000 between them; it is left out of the relMSE (bench/README.md). Each sample "
+          "count is a render of its own; `slope` is fitted to "
+          "log relMSE over log time where relMSE is more than the bar (-1: independent samples). ~: some of the three times is "
           "extrapolated along that slope; -: not within an hour, or not to be told by this reference.")
     print("![relMSE over time, a panel for each scene](performance.png)\n")
     table(["scene", "integrator", "spp", "s", "relMSE", "bar", "CIEDE2000", "bar", "slope", "s to relMSE .01", "s to .001",

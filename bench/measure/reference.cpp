@@ -43,15 +43,22 @@ std::unique_ptr<Scene> load_for_picture(std::string const& name) {
 
 Reference reference_of(Scene const& scene, Settings const& settings) {
     constexpr std::uint64_t seeds[2] = {1000001, 1000002};  // no other run has these
-    XyzPicture a = read_half(scene, seeds[0], settings);
-    XyzPicture const b = read_half(scene, seeds[1], settings);
-    Comparison const apart = compare(a, b);
-    for (std::size_t i = 0; i < a.xyz.pixel.size(); ++i) {
-        Xyz& p = a.xyz.pixel[i];
-        Xyz const& q = b.xyz.pixel[i];
-        p = {(p.X + q.X) / 2, (p.Y + q.Y) / 2, (p.Z + q.Z) / 2};
-    }
-    return {std::move(a), apart.relmse / 4, apart.delta_e_2000_mean / 2};
+    std::array<XyzPicture, 2> const half{read_half(scene, seeds[0], settings), read_half(scene, seeds[1], settings)};
+    Comparison const apart = compare(half[0], half[1]);
+    XyzPicture mean = half[0];
+    for (std::size_t i = 0; i < mean.xyz.pixel.size(); ++i)
+        mean.xyz.pixel[i] = 0.5 * (half[0].xyz.pixel[i] + half[1].xyz.pixel[i]);
+    return {std::move(mean), half, apart.relmse / 4, apart.delta_e_2000_mean / 2};
+}
+
+double Reference::relmse_of(XyzPicture const& p) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < p.xyz.pixel.size(); ++i)
+        for (double Xyz::*c : {&Xyz::X, &Xyz::Y, &Xyz::Z}) {
+            auto const of = [&](XyzPicture const& q) { return q.xyz.pixel[i].*c; };
+            sum += (of(p) - of(half[0])) * (of(p) - of(half[1])) / (square(of(picture)) + relmse_floor);
+        }
+    return sum / (3 * static_cast<double>(p.xyz.pixel.size()));
 }
 
 XyzPicture picture_of(Film const& film) {
