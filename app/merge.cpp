@@ -21,12 +21,8 @@ struct Options {
 
 bool is_picture(std::string const& name) { return std::filesystem::path(name).extension() == ".exr"; }
 
-Checkpoint read_part(std::string const& name) {
-    if (!is_picture(name)) return read_checkpoint(name);
-    ExrPart part = read_exr_part(name);
-    if (!part.left_out.empty())
-        fmt::print(stderr, "note: {}: these channels are left out: {}\n", name, fmt::join(part.left_out, ", "));
-    return std::move(part.state);
+ExrPart read_part(std::string const& name) {
+    return is_picture(name) ? read_exr_part(name) : ExrPart{read_checkpoint(name)};
 }
 
 // A picture's means have lost which of its light came by camera and which by light paths; a checkpoint's have not.
@@ -38,26 +34,41 @@ void check_one_kind(std::vector<std::string> const& names) {
                                          is_picture(name) ? "picture" : "checkpoint", names.front()));
 }
 
-int run_merge(Options const& o) {
-    std::filesystem::path const out = o.output;
-    check_output("--output", out, ".exr");
-    std::vector<Checkpoint> parts;
-    check_one_kind(o.parts);
-    for (std::string const& name : o.parts) parts.push_back(read_part(name));
-    output_space(o.colourspace, parts.front().settings.scene_white);  // to refuse an unknown one
+void check_go_together(std::vector<std::string> const& names, std::vector<Checkpoint> const& parts) {
     std::vector<Diagnostic> wrong;
     for (std::size_t i = 0; i < parts.size(); ++i)
         for (std::size_t k = 0; k < i; ++k)
             for (std::string const& obstacle : obstacles_to_merging(parts[k], parts[i])) {
                 Diagnostic& d = wrong.emplace_back();
-                d.where.file = o.parts[i];
-                d.message = fmt::format("cannot be merged with {}: {}", o.parts[k], obstacle);
+                d.where.file = names[i];
+                d.message = fmt::format("cannot be merged with {}: {}", names[k], obstacle);
             }
     if (!wrong.empty()) throw InputError(std::move(wrong));
+}
+
+int run_merge(Options const& o) {
+    std::filesystem::path const out = o.output;
+    check_output("--output", out, ".exr");
+    std::vector<Checkpoint> parts;
+    std::vector<PartLayers> layers;
+    check_one_kind(o.parts);
+    for (std::string const& name : o.parts) {
+        ExrPart part = read_part(name);
+        parts.push_back(std::move(part.state));
+        layers.push_back(std::move(part.layers));
+    }
+    output_space(o.colourspace, parts.front().settings.scene_white);  // to refuse an unknown one
+    check_go_together(o.parts, parts);
     ExrSettings settings = parts.front().settings;
     settings.colourspace = o.colourspace;
     settings.parts = static_cast<int>(parts.size());
-    write_exr(picture_of(merged(parts)), settings, out);
+    Film const film = picture_of(merged(parts));
+    MergedLayers const beside = merged_layers(parts, layers, film, settings);
+    for (std::size_t i = 0; i < parts.size(); ++i)
+        if (!beside.left_out[i].empty())
+            fmt::print(stderr, "note: {}: these channels are left out: {}\n", o.parts[i],
+                       fmt::join(beside.left_out[i], ", "));
+    write_exr(film, settings, out, beside.layers);
     return exit_done;
 }
 
@@ -65,7 +76,9 @@ int run_merge(Options const& o) {
 
 Command add_merge(CLI::App& app) {
     CLI::App* const parser =
-        app.add_subcommand("merge", "Add up parts of a picture, checkpoints or EXR files, by sample count");
+        app.add_subcommand("merge",
+                           "Add up parts of a picture, checkpoints or EXR files, by sample count; EXR files "
+                           "with the layers of --aov that all of them have");
     auto const o = std::make_shared<Options>();
     parser->add_option("PARTS", o->parts, "checkpoints, or EXR files: of other seeds, other samples or other crops")
         ->required();

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 namespace iride {
 
@@ -49,25 +50,49 @@ std::uint32_t cryptomatte_id(std::string const& name) {
 
 float id_as_float(std::uint32_t id) { return std::bit_cast<float>(id); }
 
+std::vector<std::string> cryptomatte_channels(std::string const& layer) {
+    std::vector<std::string> names;
+    for (std::size_t rank = 0; rank < cryptomatte_ranks; ++rank)
+        for (char const* c : rank % 2 == 0 ? std::array{"R", "G"} : std::array{"B", "A"})
+            names.push_back(fmt::format("{}{:02}.{}", layer, rank / 2, c));
+    return names;
+}
+
+std::string cryptomatte_key(std::string const& layer) {
+    return fmt::format("cryptomatte/{:.7}/", fmt::format("{:08x}", murmur3(layer)));
+}
+
+RankedCoverage ranked(SamplesById const& seen, std::uint32_t samples) {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> order(seen.begin(), seen.end());
+    std::ranges::stable_sort(order, std::ranges::greater{}, &std::pair<std::uint32_t, std::uint32_t>::second);
+    RankedCoverage channels{};
+    for (std::size_t r = 0; r < std::min(cryptomatte_ranks, order.size()); ++r) {
+        channels[2 * r] = id_as_float(order[r].first);
+        channels[2 * r + 1] = static_cast<float>(order[r].second) / static_cast<float>(samples);
+    }
+    return channels;
+}
+
+void add_ranked(SamplesById& seen, RankedCoverage const& channels, std::uint32_t samples) {
+    for (std::size_t r = 0; r < cryptomatte_ranks; ++r) {
+        auto const count = std::lround(static_cast<double>(channels[2 * r + 1]) * samples);
+        if (count > 0) seen[std::bit_cast<std::uint32_t>(channels[2 * r])] += static_cast<std::uint32_t>(count);
+    }
+}
+
 Cryptomatte::Cryptomatte(std::string layer, std::vector<std::string> names, int width, int height)
     : layer_(std::move(layer)), names_(std::move(names)), seen_(width, height) {}
 
 void Cryptomatte::append_to(ExtraLayers& layers, Image<std::uint32_t> const& samples) const {
     std::size_t const first = layers.channels.size(), pixels = seen_.pixel.size();
-    for (int rank = 0; rank < ranks; ++rank)
-        for (char const* c : rank % 2 == 0 ? std::array{"R", "G"} : std::array{"B", "A"})
-            layers.channels.emplace_back(fmt::format("{}{:02}.{}", layer_, rank / 2, c), std::vector<float>(pixels));
+    for (std::string const& name : cryptomatte_channels(layer_))
+        layers.channels.emplace_back(name, std::vector<float>(pixels));
     for (std::size_t p = 0; p < pixels; ++p) {
-        std::map<std::uint32_t, std::uint32_t> by_id;  // two objects of one name are one
+        SamplesById by_id;  // two objects of one name are one
         for (auto const& [object, count] : seen_.pixel[p])
             by_id[cryptomatte_id(names_[static_cast<std::size_t>(object)])] += count;
-        std::vector<std::pair<std::uint32_t, std::uint32_t>> ranked(by_id.begin(), by_id.end());
-        std::ranges::stable_sort(ranked, std::ranges::greater{}, &std::pair<std::uint32_t, std::uint32_t>::second);
-        for (std::size_t r = 0; r < std::min<std::size_t>(ranks, ranked.size()); ++r) {
-            layers.channels[first + 2 * r].second[p] = id_as_float(ranked[r].first);
-            layers.channels[first + 2 * r + 1].second[p] =
-                static_cast<float>(ranked[r].second) / static_cast<float>(samples.pixel[p]);
-        }
+        RankedCoverage const here = ranked(by_id, samples.pixel[p]);
+        for (std::size_t c = 0; c < here.size(); ++c) layers.channels[first + c].second[p] = here[c];
     }
     std::string manifest = "{";
     std::vector<std::string> sorted = names_;
@@ -76,7 +101,7 @@ void Cryptomatte::append_to(ExtraLayers& layers, Image<std::uint32_t> const& sam
     for (std::string const& name : sorted)
         manifest +=
             fmt::format("{}{}:\"{:08x}\"", manifest.size() > 1 ? "," : "", json_text(name), cryptomatte_id(name));
-    std::string const key = fmt::format("cryptomatte/{:.7}/", fmt::format("{:08x}", murmur3(layer_)));
+    std::string const key = cryptomatte_key(layer_);
     layers.attributes.emplace_back(key + "name", layer_);
     layers.attributes.emplace_back(key + "hash", "MurmurHash3_32");
     layers.attributes.emplace_back(key + "conversion", "uint32_to_float32");

@@ -5,9 +5,11 @@
 // id, coverage.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "film/exr.h"
 
@@ -19,6 +21,18 @@ std::uint32_t murmur3(std::string const& text);
 std::uint32_t cryptomatte_id(std::string const& name);
 float id_as_float(std::uint32_t id);
 
+// A layer's channels: two of each rank; and what the names of its attributes begin with.
+inline constexpr std::size_t cryptomatte_ranks = 6;
+std::vector<std::string> cryptomatte_channels(std::string const& layer);
+std::string cryptomatte_key(std::string const& layer);
+
+// A pixel: how many of its samples showed each id, and what its channels say of that.
+using SamplesById = std::map<std::uint32_t, std::uint32_t>;
+using RankedCoverage = std::array<float, 2 * cryptomatte_ranks>;  // id, coverage, id, coverage ...
+RankedCoverage ranked(SamplesById const& seen, std::uint32_t samples);
+// The inverse: samples that these channels tell of, `samples` in all, are added.
+void add_ranked(SamplesById& seen, RankedCoverage const& channels, std::uint32_t samples);
+
 class Cryptomatte {
   public:
     // `layer`: "CryptoMaterial", e.g.; `names`: of all objects there are, for the manifest.
@@ -29,7 +43,6 @@ class Cryptomatte {
     void append_to(ExtraLayers& layers, Image<std::uint32_t> const& samples) const;
 
   private:
-    static constexpr int ranks = 6;
     std::string layer_;
     std::vector<std::string> names_;
     Image<std::map<int, std::uint32_t>> seen_;

@@ -12,6 +12,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -53,7 +54,7 @@ void check_exr(std::filesystem::path const& path);
 // A picture read back as XYZ: from its X Y Z channels, or R G B by its own chromaticities (linear Rec.709 if it names
 // none) and, if it has a sceneWhite, with the adaptation undone. `variance` is empty unless the file has it (and then
 // refers to exposure 1). Any OpenEXR file; throws InputError if it is missing, truncated, no EXR, deep or has no
-// colour.
+// colour. Of the channels beside these, those that `wanted` names are read as they are.
 struct XyzPicture {
     Image<Xyz> xyz, variance;
     double exposure = 1;
@@ -65,8 +66,15 @@ struct XyzPicture {
     Chromaticity white{0.3127, 0.3290};          // sceneWhite
     bool half = false;                           // colour as 16-bit floats
     std::map<std::string, std::string> facts{};  // attributes "iride:KEY" by KEY, as text
-    std::vector<std::string> other_channels{};   // that are not read
+    std::optional<RgbSpace> rgb{};               // of its colour; X Y Z have none
+    std::vector<std::string> other_channels{};   // beside all these
+    ExtraLayers layers{};                        // the wanted ones of them; all other attributes that are text
 };
-XyzPicture read_exr_as_xyz(std::filesystem::path const& path);
+using ChannelFilter = bool (*)(std::string const& channel);
+inline bool no_channel(std::string const&) { return false; }
+XyzPicture read_exr_as_xyz(std::filesystem::path const& path, ChannelFilter wanted = no_channel);
+
+// XYZ of a colour in `rgb`, or X Y Z itself, that was adapted from a white: the inverse of output_space().from_xyz.
+MatrixDouble xyz_of_output(std::optional<RgbSpace> const& rgb, Chromaticity const& scene_white);
 
 }  // namespace iride

@@ -105,19 +105,19 @@ class Reader {
         return {origin_.x - whole.min.x, origin_.y - whole.min.y, whole.max.x - whole.min.x + 1,
                 whole.max.y - whole.min.y + 1};
     }
-    // Attributes "iride:KEY".
-    std::map<std::string, std::string> facts() const {
-        std::map<std::string, std::string> all;
+    // Attributes "iride:KEY", and all others that are text.
+    void read_attributes(XyzPicture& picture) const {
         std::string const ours = "iride:";
         for (auto a = header().begin(); a != header().end(); ++a) {
             std::string const name = a.name();
-            if (!name.starts_with(ours)) continue;
-            if (auto const* text = dynamic_cast<Imf::StringAttribute const*>(&a.attribute()))
-                all[name.substr(ours.size())] = text->value();
-            else if (auto const* number = dynamic_cast<Imf::IntAttribute const*>(&a.attribute()))
-                all[name.substr(ours.size())] = std::to_string(number->value());
+            auto const* const text = dynamic_cast<Imf::StringAttribute const*>(&a.attribute());
+            auto const* const number = dynamic_cast<Imf::IntAttribute const*>(&a.attribute());
+            if (!name.starts_with(ours)) {
+                if (text) picture.layers.attributes.emplace_back(name, text->value());
+            } else if (text || number) {
+                picture.facts[name.substr(ours.size())] = text ? text->value() : std::to_string(number->value());
+            }
         }
-        return all;
     }
 
     [[noreturn]] void refuse(std::string message) const { fail(path_, std::move(message)); }
@@ -136,23 +136,27 @@ Image<Xyz> combined(std::span<Image<float> const, 3> c, MatrixDouble const& to_x
     return image;
 }
 
-// XYZ of the file's RGB, by its own primaries; adapted back to the scene's white if it says which that was.
-MatrixDouble rgb_to_xyz(Reader const& in) {
-    RgbSpace space = rgb::rec709;
-    if (Imf::hasChromaticities(in.header())) {
-        Imf::Chromaticities const& c = Imf::chromaticities(in.header());
-        auto const v = [](Imath::V2f const& p) { return Chromaticity{p.x, p.y}; };
-        space = {"of the file", v(c.red), v(c.green), v(c.blue), v(c.white), ""};
-    }
-    MatrixDouble matrix = space.to_xyz_matrix();
-    if (auto const* const white = in.header().findTypedAttribute<Imf::V2fAttribute>("sceneWhite"))
-        matrix = bradford_adaptation(space.white, {white->value().x, white->value().y}) * matrix;
+// The doubles of floats' shortest decimals: .3127 for .3127f.
+Chromaticity as_written(Imath::V2f const& p) {
+    auto const decimal = [](float value) { return std::stod(fmt::format("{}", value)); };
+    return {decimal(p.x), decimal(p.y)};
+}
+
+// What the file's RGB are, by its own primaries.
+RgbSpace rgb_of(Reader const& in) {
+    if (!Imf::hasChromaticities(in.header())) return rgb::rec709;
+    Imf::Chromaticities const& c = Imf::chromaticities(in.header());
+    return {"of the file", as_written(c.red), as_written(c.green), as_written(c.blue), as_written(c.white), ""};
+}
+
+// Adapted back to the scene's white if the file says which that was.
+MatrixDouble to_xyz_matrix(Reader const& in, XyzPicture& picture) {
+    auto const* const white = in.header().findTypedAttribute<Imf::V2fAttribute>("sceneWhite");
+    if (white) picture.white = as_written(white->value());
+    MatrixDouble const matrix = xyz_of_output(picture.rgb, white || !picture.rgb ? picture.white : picture.rgb->white);
     if (!matrix.allFinite()) in.refuse("its chromaticities or its sceneWhite span no colour space");
     return matrix;
 }
-
-// The double of a float's shortest decimal: .3127 for .3127f.
-double as_written(float value) { return std::stod(fmt::format("{}", value)); }
 
 // The wavelength of "S0.550,000000nm", or nothing.
 std::optional<double> band_centre(std::string name) {
@@ -179,7 +183,14 @@ Names without(Names const& read, Imf::ChannelList const& channels) {
     return others;
 }
 
-XyzPicture read(std::filesystem::path const& path) {
+// Planes from `first` on leave for `layers`, under their names.
+void move_layers(std::vector<Image<float>>& planes, std::size_t first, Names const& names, ExtraLayers& layers) {
+    for (std::size_t i = 0; i < names.size(); ++i)
+        layers.channels.emplace_back(names[i], std::move(planes[first + i].pixel));
+    planes.resize(first);
+}
+
+XyzPicture read(std::filesystem::path const& path, ChannelFilter wants_layer) {
     Reader in(path);
     static Names const count{"count"}, xyz{"X", "Y", "Z"}, rgb{"R", "G", "B"},
         variance{"variance.X", "variance.Y", "variance.Z"};
@@ -191,27 +202,30 @@ XyzPicture read(std::filesystem::path const& path) {
     for (auto const& band : bands) wanted.push_back(band.second);
     if (in.has(count)) wanted.push_back(count.front());
 
-    MatrixDouble const identity = MatrixDouble::Identity();
-    MatrixDouble const matrix = is_xyz ? identity : rgb_to_xyz(in);
     XyzPicture picture;
+    if (!is_xyz) picture.rgb = rgb_of(in);
+    MatrixDouble const matrix = to_xyz_matrix(in, picture);
+    picture.other_channels = without(wanted, in.header().channels());
+    Names layers;
+    std::ranges::copy_if(picture.other_channels, std::back_inserter(layers), wants_layer);
+    std::size_t const first_layer = wanted.size();
+    wanted.insert(wanted.end(), layers.begin(), layers.end());
     if (auto const* e = in.header().findTypedAttribute<Imf::DoubleAttribute>("iride:exposure"))
         picture.exposure = e->value();
     if (!(picture.exposure > 0 && picture.exposure < std::numeric_limits<double>::infinity()))
         in.refuse(fmt::format("its exposure is {}, allowed: above 0", picture.exposure));
     std::vector<Image<float>> planes = in.channels(wanted);
+    move_layers(planes, first_layer, layers, picture.layers);
     if (in.has(count)) {
         picture.count = std::move(planes.back());
         planes.pop_back();
     }
     std::span<Image<float> const> const all(planes);
     picture.xyz = combined(all.first<3>(), matrix);
-    if (has_variance) picture.variance = combined(all.subspan<3, 3>(), identity);
+    if (has_variance) picture.variance = combined(all.subspan<3, 3>(), MatrixDouble::Identity());
     picture.place = in.place();
     picture.half = in.header().channels().findChannel(wanted.front())->type == Imf::HALF;
-    picture.facts = in.facts();
-    if (auto const* const white = in.header().findTypedAttribute<Imf::V2fAttribute>("sceneWhite"))
-        picture.white = {as_written(white->value().x), as_written(white->value().y)};
-    picture.other_channels = without(wanted, in.header().channels());
+    in.read_attributes(picture);
     std::size_t const first_band = planes.size() - bands.size();
     for (std::size_t b = 0; b < bands.size(); ++b)
         picture.bands.emplace_back(bands[b].first, std::move(planes[first_band + b]));
@@ -232,10 +246,15 @@ void check_exr(std::filesystem::path const& path) {
     Imf::Header::setMaxTileSize(largest_tile, largest_tile);
 }
 
-XyzPicture read_exr_as_xyz(std::filesystem::path const& path) {
+MatrixDouble xyz_of_output(std::optional<RgbSpace> const& rgb, Chromaticity const& scene_white) {
+    if (!rgb) return MatrixDouble::Identity();
+    return bradford_adaptation(rgb->white, scene_white) * rgb->to_xyz_matrix();
+}
+
+XyzPicture read_exr_as_xyz(std::filesystem::path const& path, ChannelFilter wanted) {
     check_exr(path);
     try {
-        return read(path);
+        return read(path, wanted);
     } catch (InputError const&) {
         throw;
     } catch (std::exception const& e) {

@@ -112,7 +112,7 @@ void fill(Film& film, XyzPicture const& picture, Facts const& facts) {
 }  // namespace
 
 ExrPart read_exr_part(std::filesystem::path const& path) {
-    XyzPicture const picture = read_exr_as_xyz(path);
+    XyzPicture picture = read_exr_as_xyz(path, is_of_layer);
     Facts const facts(path, picture);
     check_kind(facts, picture);
     ExrSettings of;
@@ -130,7 +130,9 @@ ExrPart read_exr_part(std::filesystem::path const& path) {
     fill(film, picture, facts);
     std::vector<Film> films;
     films.push_back(std::move(film));
-    return {{of, std::move(films), 0}, picture.other_channels};
+    PartLayers layers{std::move(picture.layers), picture.rgb, std::move(picture.other_channels)};
+    if (auto const wrong = impossible_value(layers)) facts.refuse(*wrong);
+    return {{of, std::move(films), 0}, std::move(layers)};
 }
 
 }  // namespace iride

@@ -6,12 +6,13 @@
 #pragma once
 
 #include "film/checkpoint.h"
+#include "film/exr_layers.h"
 
 namespace iride {
 
 struct ExrPart {
-    Checkpoint state;                   // one film; covariances between X, Y and Z are not in the file and are 0
-    std::vector<std::string> left_out;  // its channels that are not merged
+    Checkpoint state;  // one film; covariances between X, Y and Z are not in the file and are 0
+    PartLayers layers{};
 };
 
 // Throws InputError for what is no picture of this version of the program, is merged already, or has adaptive samples:

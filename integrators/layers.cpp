@@ -9,14 +9,13 @@
 #include "base/diagnostics.h"
 #include "colour/rgb_to_spectrum.h"
 #include "film/cryptomatte.h"
+#include "film/exr_layers.h"
 #include "integrators/choice.h"
 #include "integrators/scattering.h"
 
 namespace iride {
 
 namespace {
-
-constexpr std::uint32_t most_first_hits = 256;  // of a pixel: coverage to .4 %
 
 constexpr std::array<LayerEntry, 11> table{{
     {"depth", "distance of the nearest first hit along the camera's axis [m], infinite where there is none"},
@@ -94,7 +93,7 @@ class FirstHits {
     }
 
     void find(int x, int y, RayStatistics& statistics) {
-        std::uint32_t const count = std::min(most_first_hits, film_.pixel(x, y).taken());
+        std::uint32_t const count = first_hits(film_.pixel(x, y));
         samples.at(x, y) = count;
         depth.at(x, y) = infinity;
         position.at(x, y) = normal.at(x, y) = geometric_normal.at(x, y) = Vector(0, 0, 0);

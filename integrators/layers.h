@@ -5,6 +5,7 @@
 //   material, object; of the film: count, variance
 //   direct: the same paths again, ended after one scattering; indirect: the rest. Their sum is the picture.
 //   groups: the same paths again, what they find told apart by lights (integrators/light_groups.h). Their sum is too.
+// How the layers of parts are merged says film/exr_layers.h, which knows them by their channels' names.
 #pragma once
 
 #include <array>

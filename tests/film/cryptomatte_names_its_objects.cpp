@@ -20,6 +20,18 @@ TEST_CASE("ids are floats of ordinary size", "[unit]") {
     for (int i = 0; i < 100000; ++i) CHECK((std::isnormal(id_as_float(cryptomatte_id(std::to_string(i))))));
 }
 
+// Fails when equal coverages are in another order than that of ids.
+TEST_CASE("ranked coverages give back the samples of each id", "[unit]") {
+    SamplesById const seen{{7, 100}, {20, 1}, {31, 57}, {40, 57}};
+    SamplesById read;
+    add_ranked(read, ranked(seen, 253), 253);
+    CHECK(read == seen);
+    RankedCoverage const channels = ranked(seen, 253);
+    CHECK(channels[2] == id_as_float(31));
+    CHECK(channels[4] == id_as_float(40));
+    CHECK(channels[8] == 0);
+}
+
 TEST_CASE("a pixel's objects are ranked by coverage", "[unit]") {
     Cryptomatte matte("CryptoMaterial", {"gold", "say \"x\"", "gold"}, 2, 1);
     for (int object : {1, 0, 2, 1, 0}) matte.add(0, 0, object);

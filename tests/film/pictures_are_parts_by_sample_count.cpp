@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // An EXR read back as a part: its sums are those of the film that was written, to the precision of its floats, whatever
 // number of samples each pixel has.
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 
 #include "base/sampler.h"
@@ -84,8 +86,49 @@ TEST_CASE("pictures whose numbers no render gives are refused as parts", "[input
         CHECK_THROWS_WITH(read_exr_part(folder.path() / "a.exr"),
                           Contains("a.exr") && Contains("its pixel 4 holds what no render gives"));
     }
-    ExtraLayers other;
-    other.channels.emplace_back("depth.Z", std::vector<float>(6));
-    write_exr(film, settings(1), folder.path() / "a.exr", other);
-    CHECK(read_exr_part(folder.path() / "a.exr").left_out == std::vector<std::string>{"depth.Z"});
+    // Nor in its layers.
+    for (auto const& [channel, bad] : {std::pair("depth.Z", std::nanf("")),
+                                       {"N.X", INFINITY},
+                                       {"CryptoObject01.A", 1.5f},
+                                       {"group.a.R", -INFINITY}}) {
+        ExtraLayers layers;
+        layers.channels.emplace_back(channel, std::vector<float>{0, 0, 0, bad, 0, 0});
+        write_exr(film, settings(1), folder.path() / "a.exr", layers);
+        CHECK_THROWS_WITH(
+            read_exr_part(folder.path() / "a.exr"),
+            Contains("a.exr") && Contains(fmt::format("its channel {} holds {} in pixel 3", channel, bad)));
+    }
+}
+
+// Normals are of all samples taken, light of those not rejected: in pixel (2, 1) of 16 and 32, and of 10 and 22. Fails
+// with one weight for both.
+TEST_CASE("layers weigh as many samples as made them, and others are left out", "[unit]") {
+    TemporaryFolder const folder;
+    std::vector<Checkpoint> parts;
+    std::vector<PartLayers> layers;
+    for (auto const& [first, last, value] : {std::tuple(0u, 16u, 1.0f), {16u, 48u, 4.0f}}) {
+        Film part = empty();
+        add_samples(part, first, last);
+        ExtraLayers beside;
+        for (char const* channel :
+             {"N.W", "N.X", "N.Y", "N.Z", "direct.X", "direct.Y", "direct.Z", "heat.Z", "indirect.R"})
+            beside.channels.emplace_back(channel, std::vector<float>(6, value));
+        ExrSettings of = settings(first);
+        of.colourspace = "XYZ";
+        write_exr(part, of, folder.path() / "part.exr", beside);
+        ExrPart read = read_exr_part(folder.path() / "part.exr");
+        parts.push_back(std::move(read.state));
+        layers.push_back(std::move(read.layers));
+    }
+    ExrSettings of = parts.front().settings;
+    of.colourspace = "XYZ";
+    MergedLayers const sum = merged_layers(parts, layers, picture_of(merged(parts)), of);
+    std::vector<std::string> const others{"N.W", "heat.Z", "indirect.R"};
+    CHECK(sum.left_out == std::vector{others, others});
+    REQUIRE(sum.layers.channels.size() == 6);
+    for (auto const& [channel, values] : sum.layers.channels) {
+        INFO(channel);
+        CHECK(values[0] == 3);
+        CHECK(values[5] == (channel.starts_with("N") ? 3.0f : (10 * 1 + 22 * 4) / 32.0f));
+    }
 }
