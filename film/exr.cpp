@@ -98,10 +98,10 @@ std::vector<Plane> planes_of(Film const& film, ExrSettings const& s, OutputSpace
     return planes;
 }
 
-// Samples in each pixel's mean, where pixels differ in it.
-std::optional<Plane> plane_of_counts(Film const& film) {
+// Samples in each pixel's mean, where pixels differ in it or parts were merged.
+std::optional<Plane> plane_of_counts(Film const& film, bool merged) {
     auto const [least, most] = std::ranges::minmax_element(film.pixels(), {}, &FilmPixel::count);
-    if (least->count == most->count) return std::nullopt;
+    if (!merged && least->count == most->count) return std::nullopt;
     return Plane{"count", Imf::FLOAT, plane_of(film, [&](int x, int y) { return film.sample_count(x, y); }), {}};
 }
 
@@ -167,7 +167,7 @@ void write_exr(Film const& film, ExrSettings const& settings, std::filesystem::p
     Imf::Header header = header_of(film, settings, space);
     std::vector<Plane> planes = planes_of(film, settings, space);
     for (auto const& [name, value] : extra.channels) planes.push_back({name, Imf::FLOAT, value, {}});
-    auto counts = plane_of_counts(film);
+    auto counts = plane_of_counts(film, settings.parts > 1);
     if (counts && std::ranges::find(planes, counts->name, &Plane::name) == planes.end())
         planes.push_back(std::move(*counts));
     for (auto const& [name, value] : extra.attributes) header.insert(name, Imf::StringAttribute(value));

@@ -3,7 +3,7 @@
 //
 // Channels: R G B (or X Y Z) in the output space; S0.550,000000nm ... for bands, the layout of [Fichet 2021];
 // variance.X variance.Y variance.Z: variance of the mean, of XYZ at exposure 1, always float; count, of samples, where
-// pixels differ in it; more layers on request (integrators/layers.h).
+// pixels differ in it or parts were merged; more layers on request (integrators/layers.h).
 // Attributes: chromaticities (typed), whiteLuminance [cd m^-2 of RGB (1,1,1), or of Y = 1], colorInteropID, sceneWhite
 // (x, y that was adapted to the file's white), spectralLayoutVersion and emissiveUnits when there are bands, and under
 // "iride:" version, sceneHash, scene, integrator, sampler, spp, seed, firstSample, observer, exposure, bands, adaptive,

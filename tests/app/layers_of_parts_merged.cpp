@@ -115,6 +115,7 @@ TEST_CASE("layers of parts merged are those of the picture made at once", "[app]
         REQUIRE(whole.size() == 1 + 3 + 6 + 3 + 24 + 6 + 6);
         CHECK(sum.size() == whole.size());
         CHECK(worst(sum, whole) <= 1);
+        CHECK(read_exr_as_xyz(at("merged")).count.pixel == std::vector<float>(24 * 20, 16.0f));
         for (auto const& [key, value] : at.layers("whole").attributes)
             if (key.starts_with("cryptomatte/"))
                 CHECK(std::ranges::count(at.layers("merged").attributes, std::pair(key, value)) == 1);
