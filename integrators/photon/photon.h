@@ -7,13 +7,15 @@
 #include <vector>
 
 #include "scene/light_emission.h"
+#include "scene/shape.h"
 
 namespace iride {
 
 struct Photon {
     Vector position;
-    Direction normal;  // geometric, on the side that it came to
-    Direction wi;      // where it came from
+    Direction normal;    // geometric, on the side that it came to
+    Direction wi;        // where it came from
+    Shape const* shape;  // that it fell on; of a map: null if its light may reach others
     std::uint16_t packet;
     std::uint16_t scatterings;
     bool can_be_followed;  // back to its last other scattering than by Dirac lobes, or to a lamp that can be met

@@ -65,23 +65,21 @@ void PhotonCache::shoot(Scene const& scene, std::uint64_t seed, int map, RayStat
         indirect_widest_ = widest_radius(harvest.indirect, widest);
     }
     auto const share = static_cast<float>(settings_.progressive ? std::sqrt(shrinkage(map + 1, settings_.alpha)) : 1);
-    auto const take = [&](PhotonList& photons, float widest, Neighbourhood& around, PhotonMap& into) {
-        around = {widest, settings_.neighbours, share};
-        into = PhotonMap(std::move(photons), widest / widest_search);
+    auto const make = [&](PhotonList& photons, float widest) {
+        return PhotonMap(std::move(photons), reach_, {widest, settings_.neighbours, share}, widest / widest_search);
     };
-    take(harvest.caustic, caustic_widest_, around_caustic_, caustic_);
-    take(harvest.indirect, indirect_widest_, around_indirect_, indirect_);
+    caustic_ = make(harvest.caustic, caustic_widest_);
+    indirect_ = make(harvest.indirect, indirect_widest_);
     made_ = map;
 }
 
 Radiance PhotonCache::direct_and_caustic(CachedPoint const& point) const {
     if (point.at.scatterings >= max_scatterings_) return {};
-    return direct_light(point) + caustic_.brought(point.at, within(around_caustic_, reach_.of(*point.at.hit.shape)));
+    return direct_light(point) + caustic_.brought(point.at);
 }
 
 Radiance PhotonCache::all(CachedPoint const& point) const {
-    return direct_and_caustic(point) +
-           indirect_.brought(point.at, within(around_indirect_, reach_.of(*point.at.hit.shape)));
+    return direct_and_caustic(point) + indirect_.brought(point.at);
 }
 
 }  // namespace iride

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// What photons know of the light: a caustic and an indirect map, and lamps sampled directly. A map is made once, with
-// the k nearest photons, or for each pass anew, within a share of the k nearest's radius that shrinks so that bias and
-// noise both vanish:
+// What photons know of the light: a caustic and an indirect map, and lamps sampled directly. A map is made once, each
+// photon spread over a disc that holds k, or for each pass anew, over a share of that disc's radius that shrinks so
+// that bias and noise both vanish:
 //   c_{i+1}^2 = c_i^2 (i + alpha) / (i + 1),  so  c_i^2 = Gamma(i + alpha) / (Gamma(1 + alpha) i!)
 //                                                             [Hachisuka 2009] [Knaus 2011, eq. 16]
-// The radius is thus small where photons are dense. Each pass is a function of (seed, number of the pass) alone, of the
+// Each pass is a function of (seed, number of the pass) alone, of the
 // others only the widest radius is known.
 #pragma once
 
@@ -43,10 +43,6 @@ class PhotonCache final : public RadianceCache {
 
   private:
     void shoot(Scene const& scene, std::uint64_t seed, int map, RayStatistics& statistics);
-    static Neighbourhood within(Neighbourhood around, float reach) {
-        around.radius = std::min(around.radius, reach);
-        return around;
-    }
     float widest_radius(PhotonList const& photons, float widest) const;
 
     PhotonSettings settings_;
@@ -57,7 +53,6 @@ class PhotonCache final : public RadianceCache {
     std::optional<std::uint64_t> seed_;
     std::optional<int> made_;  // number of the map at hand
     float caustic_widest_ = 0, indirect_widest_ = 0;
-    Neighbourhood around_caustic_, around_indirect_;
     std::optional<PacketSet> packets_;
     PhotonMap caustic_, indirect_;
 };

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "integrators/photon/photon_map.h"
 
+#include <tbb/parallel_for.h>
+
+#include "integrators/photon/photon_grid.h"
+#include "integrators/photon/quad_edges.h"
+
 namespace iride {
 
 namespace {
@@ -8,28 +13,79 @@ namespace {
 // A photon lies on the plane through p if its height is below this share of its distance: surfaces curve, layers do not
 // touch.
 constexpr float flatness = 0.3f;
-constexpr float alike = 0.8f;  // cosine between normals of one smooth surface, over the width of a neighbourhood
+constexpr float alike = 0.8f;  // cosine between normals of one smooth surface, over the width of a disc
 
-bool lies_beside(Photon const& photon, GatherPoint const& at) {
+bool is_flat(Vector const& d, Direction const& normal) {
     constexpr float rounding = 1e-5f;  // m: two places on a plane, as floats
-    Vector const d = photon.position - at.hit.point.position;
-    float const turned = photon.normal.dot(at.side);
-    return (at.both_sides ? std::abs(turned) : turned) > alike &&
-           std::abs(d.dot(at.side)) <= flatness * d.norm() + rounding;
+    return std::abs(d.dot(normal)) <= flatness * d.norm() + rounding;
 }
 
-std::vector<PhotonGrid::Entry> entries_of(PhotonList const& list) {
-    std::vector<PhotonGrid::Entry> entries;
-    entries.reserve(list.size());
-    for (std::size_t i = 0; i < list.size(); ++i)
-        entries.push_back({list.photon[i].position, list.photon[i].packet, static_cast<std::uint32_t>(i)});
-    return entries;
-}
+// The radii of discs about photons.
+class DiscRadii {
+  public:
+    DiscRadii(std::vector<Photon> const& photons, PlaneReach const& reach, Spread const& spread, float cell)
+        : photons_(photons), reach_(reach), spread_(spread), grid_(entries(), cell) {}
+
+    // Cell by cell: what neighbours look at is at hand.
+    std::vector<float> all() const {
+        std::vector<float> radius(photons_.size());
+        auto const order = grid_.entries();
+        tbb::parallel_for(std::size_t{0}, order.size(),
+                          [&](std::size_t i) { radius[order[i].index] = of(photons_[order[i].index]); });
+        return radius;
+    }
+
+  private:
+    float of(Photon const& photon) const {
+        thread_local std::vector<PhotonGrid::Neighbour> found;
+        Quad const* const edges = reach_.edges(*photon.shape);
+        auto const is_beside = [&](PhotonGrid::Entry const& e, float) {
+            Photon const& other = photons_[e.index];
+            return other.normal.dot(photon.normal) > alike && (!edges || other.shape == photon.shape) &&
+                   is_flat(other.position - photon.position, photon.normal);
+        };
+        float const widest = std::min(spread_.widest, reach_.of(*photon.shape));
+        // One more: the photon is a neighbour of its own.
+        float const r2 =
+            grid_.nearest(photon.position, widest, static_cast<std::size_t>(spread_.neighbours) + 1, is_beside, found);
+        return spread_.share *
+               (edges ? std::sqrt(disc_area_in_quad(*edges, photon.position, std::sqrt(r2)) / pi) : std::sqrt(r2));
+    }
+
+    std::vector<PhotonGrid::Entry> entries() const {
+        std::vector<PhotonGrid::Entry> entries;
+        entries.reserve(photons_.size());
+        for (Photon const& p : photons_) entries.push_back({p.position, static_cast<std::uint32_t>(entries.size())});
+        return entries;
+    }
+
+    std::vector<Photon> const& photons_;
+    PlaneReach const& reach_;
+    Spread const& spread_;
+    PhotonGrid grid_;
+};
 
 }  // namespace
 
-PhotonMap::PhotonMap(PhotonList photons, float cell)
-    : photons_(std::move(photons)), grid_(entries_of(photons_), cell) {}
+PhotonMap::PhotonMap(PhotonList photons, PlaneReach const& reach, Spread const& spread, float cell)
+    : photons_(std::move(photons)) {
+    std::vector<Photon>& photon = photons_.photon;
+    if (photon.empty()) return;
+    std::vector<float> const radius = DiscRadii(photon, reach, spread, cell).all();
+    std::vector<DiscGrid::Disc> discs;
+    for (std::size_t i = 0; i < photon.size(); ++i) {
+        if (!(radius[i] > 0)) continue;
+        auto const put = [&](Vector const& centre) {
+            discs.push_back({centre, radius[i], photon[i].packet, static_cast<std::uint32_t>(i)});
+        };
+        put(photon[i].position);
+        if (Quad const* const edges = reach.edges(*photon[i].shape))
+            for_images(*edges, photon[i].position, radius[i], put);
+        else
+            photon[i].shape = nullptr;
+    }
+    discs_ = DiscGrid(discs);
+}
 
 Flux PhotonMap::scattered(GatherPoint const& at, std::uint32_t index) const {
     Photon const& photon = photons_.photon[index];
@@ -46,18 +102,18 @@ Flux PhotonMap::scattered(GatherPoint const& at, std::uint32_t index) const {
     return Flux(f.value.lane * power.flux.lane * at.state.weight.lane * scale);
 }
 
-Radiance PhotonMap::brought(GatherPoint const& at, Neighbourhood const& around) const {
-    if (grid_.size() == 0) return {};
-    thread_local std::vector<PhotonGrid::Neighbour> found;
-    auto const packet = static_cast<std::uint32_t>(at.packet);
-    auto const wanted = [&](PhotonGrid::Entry const& e, float) { return lies_beside(photons_.photon[e.index], at); };
-    float const radius2 =
-        square(around.share) *
-        grid_.nearest(at.hit.point.position, around.radius, static_cast<std::size_t>(around.neighbours), wanted, found);
-    Flux sum;
-    for (PhotonGrid::Neighbour const& f : found)
-        if (f.entry->group == packet && f.distance2 < radius2) sum += scattered(at, f.entry->index);
-    return Radiance(sum.lane / (pi * radius2));
+Radiance PhotonMap::brought(GatherPoint const& at) const {
+    Flux sum;  // per pi m^2
+    discs_.visit(at.hit.point.position, static_cast<std::uint32_t>(at.packet),
+                 [&](DiscGrid::Disc const& disc, float d2) {
+                     Photon const& photon = photons_.photon[disc.index];
+                     float const turned = photon.normal.dot(at.side), r2 = square(disc.radius);
+                     if (!((at.both_sides ? std::abs(turned) : turned) > alike)) return;
+                     if (!is_flat(disc.centre - at.hit.point.position, at.side)) return;
+                     if (photon.shape && photon.shape != at.hit.shape) return;
+                     sum += scattered(at, disc.index) * (2 * (1 - d2 / r2) / r2);
+                 });
+    return Radiance(sum.lane / pi);
 }
 
 float median_distance(PhotonList const& photons, std::size_t count) {

@@ -78,7 +78,7 @@ class PhotonWalk {
                       Direction const& wi, PhotonPower power, Throughput const& weight) {
         Direction const& n = here.geometric_normal;
         power.flux *= weight;
-        list.photon.push_back({hit.point.position, wi.dot(n) < 0 ? Direction(-n) : n, wi,
+        list.photon.push_back({hit.point.position, wi.dot(n) < 0 ? Direction(-n) : n, wi, hit.shape,
                                static_cast<std::uint16_t>(origin.packet), static_cast<std::uint16_t>(origin.scattered),
                                origin.can_be_followed});
         list.power.push_back(power);

@@ -28,11 +28,12 @@ PlaneReach::PlaneReach(Scene const& scene) {
     auto const take = [&](std::vector<Shape> const& shapes, float scale) {
         for (Shape const& shape : shapes) {
             float const reach = share * scale * std::visit(HalfWidth{}, shape.geometry);
-            auto const [known, is_new] = of_shape_.emplace(&shape, reach);
-            if (!is_new) known->second = std::min(known->second, reach);
+            auto const [known, is_new] = of_shape_.emplace(&shape, Extent{reach, nullptr});
+            if (!is_new) known->second.reach = std::min(known->second.reach, reach);
         }
     };
     take(scene.shapes, 1);
+    for (Shape const& shape : scene.shapes) of_shape_.at(&shape).edges = std::get_if<Quad>(&shape.geometry);
     for (InstancePlacement const& placed : scene.instances)
         take(scene.objects[static_cast<std::size_t>(placed.object)].shapes,
              static_cast<float>(placed.to_world.linear().colwise().norm().minCoeff()));

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "integrators/photon/disc_area.h"
+
 namespace iride {
 
 HistogramDensity::HistogramDensity(std::vector<Vector2> const& points, int side)
@@ -62,10 +64,10 @@ double SeriesDensity::at(Vector2 const& uv) const {
 NeighbourDensity::NeighbourDensity(std::vector<Vector2> const& points, int k, bool clipped)
     : k_(std::min(static_cast<std::size_t>(k), points.size())), clipped_(clipped) {
     std::vector<PhotonGrid::Entry> entries;
-    for (Vector2 const& p : points) entries.push_back({{p.x(), p.y(), 0}, 0, 0});
+    for (Vector2 const& p : points) entries.push_back({{p.x(), p.y(), 0}, 0});
     // As wide as the disc of k points would be, were they even.
     float const cell = std::sqrt(static_cast<float>(k_) / (pi * static_cast<float>(points.size())));
-    points_ = PhotonGrid(std::move(entries), cell);
+    points_ = PhotonGrid(entries, cell);
 }
 double NeighbourDensity::at(Vector2 const& uv) const {
     constexpr float diagonal = 1.5f;  // no point of the square is farther
@@ -76,33 +78,9 @@ double NeighbourDensity::at(Vector2 const& uv) const {
     return static_cast<double>(k_ - 1) / (static_cast<double>(points_.size()) * area);
 }
 
-namespace {
-
-// Signed area of the part of the disc about the origin that lies in the triangle (0, a, b): outside the disc a sector,
-// inside a triangle.
-double disc_area_in_triangle(Eigen::Vector2d const& a, Eigen::Vector2d const& b, double r) {
-    auto const cross = [](Eigen::Vector2d const& p, Eigen::Vector2d const& q) { return p.x() * q.y() - p.y() * q.x(); };
-    auto const sector = [&](Eigen::Vector2d const& p, Eigen::Vector2d const& q) {
-        return 0.5 * r * r * std::atan2(cross(p, q), p.dot(q));
-    };
-    Eigen::Vector2d const d = b - a;
-    double const A = d.squaredNorm(), B = a.dot(d), C = a.squaredNorm() - r * r, discriminant = B * B - A * C;
-    if (!(discriminant > 0)) return sector(a, b);
-    double const root = std::sqrt(discriminant);
-    double const enter = std::clamp((-B - root) / A, 0.0, 1.0), leave = std::clamp((-B + root) / A, 0.0, 1.0);
-    if (!(enter < leave)) return sector(a, b);
-    Eigen::Vector2d const p = a + enter * d, q = a + leave * d;
-    return (enter > 0 ? sector(a, p) : 0) + 0.5 * cross(p, q) + (leave < 1 ? sector(q, b) : 0);
-}
-
-}  // namespace
-
 double disc_area_in_square(Eigen::Vector2d const& centre, double radius) {
     std::array<Eigen::Vector2d, 4> const corner{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
-    double area = 0;
-    for (std::size_t i = 0; i < 4; ++i)
-        area += disc_area_in_triangle(corner[i] - centre, corner[(i + 1) % 4] - centre, radius);
-    return area;
+    return disc_area_in_polygon(corner, centre, radius);
 }
 
 }  // namespace iride

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "base/random.h"
+#include "integrators/photon/disc_grid.h"
 #include "integrators/photon/surface_density.h"
 
 using namespace iride;
@@ -76,7 +77,7 @@ TEST_CASE("the grid finds the nearest entries", "[unit]") {
     std::vector<PhotonGrid::Entry> entries;
     for (std::uint32_t i = 0; i < 3000; ++i) {
         auto const u = [&](std::uint64_t d) { return to_unit_float(static_cast<std::uint32_t>(hash_words(i, d))); };
-        entries.push_back({{u(1) * u(4), u(2), u(3) < 0.5f ? 0 : u(3)}, i % 3, i});
+        entries.push_back({{u(1) * u(4), u(2), u(3) < 0.5f ? 0 : u(3)}, i});
     }
     for (float const cell : {0.01f, 0.07f, 0.5f}) {
         PhotonGrid const grid(entries, cell);
@@ -91,5 +92,23 @@ TEST_CASE("the grid finds the nearest entries", "[unit]") {
             CHECK(found.size() == 30);
             CHECK(r2 == distance2[29]);
         }
+    }
+}
+
+TEST_CASE("the grid finds every disc that reaches over a point once", "[unit]") {
+    std::vector<DiscGrid::Disc> discs;
+    for (std::uint32_t i = 0; i < 2000; ++i) {
+        auto const u = [&](std::uint64_t d) { return to_unit_float(static_cast<std::uint32_t>(hash_words(i, d))); };
+        discs.push_back({{u(1) - 0.5f, u(2) - 0.5f, 0.1f * u(3)}, 0.3f * std::pow(u(4), 4.0f) + 1e-6f, i % 3, i});
+    }
+    DiscGrid const grid(discs);
+    for (std::uint32_t q = 0; q < 300; ++q) {
+        Vector const p = discs[q * 6].centre + Vector::Constant(0.003f);
+        std::vector<std::uint32_t> expected, found;
+        for (DiscGrid::Disc const& d : discs)
+            if (d.group == q % 3 && (d.centre - p).squaredNorm() < square(d.radius)) expected.push_back(d.index);
+        grid.visit(p, q % 3, [&](DiscGrid::Disc const& d, float) { found.push_back(d.index); });
+        std::sort(found.begin(), found.end());
+        CHECK(found == expected);
     }
 }
