@@ -62,14 +62,14 @@ TEST_CASE("progressive radii follow the product of their ratios", "[unit]") {
 }
 
 // Every method inside a closed box of albedo .5 that emits 1 sees 1 / (1 - .5) everywhere. Fails for light counted
-// twice or not at all between lamps, maps and gathering. Discs of radius r that reach over an edge
-// lose 4 r 2 / (3 pi) of a face of side 1, r = .034 here: 3 % of what comes from the map, a quarter of the whole.
+// twice or not at all between lamps, maps and gathering. The bound is that of one map's noise, .6 %: over 12 maps of
+// 50000 photons the mean is -.1 +- .2 % off.
 TEST_CASE("photon methods see the furnace's 2", "[law]") {
     auto const scene = load_scene(find_scene("cube-uniform"));
     scene->film.width = scene->film.height = 12;
     Film const reference = by("path", *scene, 256, 1);
-    for (auto const& [name, bound] : {std::pair("photon-map:photons=100000,neighbours=60", 0.02),
-                                      {"progressive-photon:photons=20000", 0.03},
+    for (auto const& [name, bound] : {std::pair("photon-map:photons=100000,neighbours=60", 0.01),
+                                      {"progressive-photon:photons=20000", 0.01},
                                       {"final-gather:photons=100000,neighbours=60", 0.01}}) {
         Difference const d = difference(by(name, *scene, 64, 2), reference);
         INFO(name << ": bias " << d.mean);
