@@ -104,7 +104,7 @@ Error error_of(Scene const& scene, Step const& step, Image<double> const& truth)
 
 }  // namespace
 
-// Fails for the k nearest photons of a point, whose bias is that of a disc's mean, and for an area 1 % off.
+// Fails for the k nearest photons of a point, whose bias is that of a disc's mean.
 TEST_CASE("a photon map's error falls as its photons to the -2/3 and it has no bias of a disc's mean", "[law]") {
     auto const scene = test::scene_from(lit_by_a_wall);
     Image<double> const truth = floor_radiance();
