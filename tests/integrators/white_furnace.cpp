@@ -77,7 +77,7 @@ void check_furnace(Method const& m, double rho, std::optional<int> bounces = {})
     CHECK(found.error < 0.0007 * expected);
 }
 
-// Photons are gathered by thousands: what they tell of a picture is then that of all of them.
+// Of a map many points are looked at: what they tell of it is then what all its photons tell.
 std::vector<Method> const methods{
     {"path", endless, false, true, false, Cost::seconds, 256},
     {"reference_path", endless, false, true, false, Cost::minutes, 256},
@@ -92,8 +92,8 @@ std::vector<Method> const methods{
     {"radiosity", endless, false, false},
     {"directional-radiosity:patches=60", endless, false, false},
     {"two-pass:patches=100"},
-    {"photon-map:photons=100000,neighbours=2000", endless, true, true, false, Cost::minutes, 16},
-    {"progressive-photon:photons=100000,neighbours=400", endless, true, true, false, Cost::minutes, 16},
+    {"photon-map:photons=100000", endless, true, true, false, Cost::minutes, 1024},
+    {"progressive-photon:photons=20000", endless, true, true, false, Cost::minutes, 64},
     {"final-gather:photons=100000", endless, true, true, false, Cost::minutes, 16}};
 
 }  // namespace

@@ -115,7 +115,7 @@ TEST_CASE("a photon map's error falls as its photons to the -2/3 and it has no b
 
     std::vector<Error> errors;
     double share = 0, weights = 0;  // of a disc's bias
-    for (Step const& step : {Step{2000, 20, 320}, {10000, 100, 80}, {40000, 252, 48}, {160000, 635, 24}}) {
+    for (Step const& step : {Step{2000, 20, 320}, {5000, 63, 120}, {20000, 159, 60}, {80000, 400, 24}}) {
         Error const e = errors.emplace_back(error_of(*scene, step, truth));
         double const expected = bias_per_share() * step.neighbours / step.photons;
         std::string const result =
