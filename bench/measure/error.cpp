@@ -85,7 +85,7 @@ nlohmann::ordered_json summary(Curve const& curve, Reference const& reference) {
             {{"spp", p.spp}, {"seconds", p.seconds}, {"relmse", p.relmse}, {"delta_e_2000", p.delta_e_2000}});
     }
     Reached const e2 = time_to(1e-2, relmse, relmse_fitted), e3 = time_to(1e-3, relmse, relmse_fitted),
-                  e4 = time_to(1e-4, relmse, relmse_fitted), de = time_to(1, colour, colour_fitted);
+                  de = time_to(1, colour, colour_fitted);
     Point const& last = curve.points.back();
     nlohmann::ordered_json slope = nullptr;
     if (relmse_fitted.size() >= 3) slope = fit_power_law(relmse_fitted).slope;
@@ -100,7 +100,6 @@ nlohmann::ordered_json summary(Curve const& curve, Reference const& reference) {
             {"slope", slope},
             {"s_to_relmse_1e-2", as_json(e2)},
             {"s_to_relmse_1e-3", as_json(e3)},
-            {"s_to_relmse_1e-4", as_json(e4)},
             {"s_to_delta_e_1", as_json(de)},
             {"extrapolated", !(e2.measured && e3.measured && de.measured)},
             {"setup_seconds", curve.setup_seconds},
