@@ -230,15 +230,13 @@ std::string figure(Json const& v) { return v.is_null() ? "-" : fmt::format("{:.3
 void print_errors(Json const& rows, std::filesystem::path const& folder) {
     fmt::print(
         "\n## Error against time\n\n"
-        "256 x 256 pixels; `radiosity` at its default of about 2500 patches, and with 10000 that show what came to "
-        "them "
+        "256 x 256 pixels; `radiosity` at its default of about 2500 patches, and with 5000 that show what came to them "
         "from no lamp\n"
         "while lamps are sampled; `path`; and `two-pass`, which is path tracing with the radiosity as control variate. "
         "relMSE against a converged picture, without its own, which is the last column.\n\n"
         "![relMSE over time]({}/error.png)\n\n"
-        "| scene | integrator | s before the first sample | s to relMSE 1e-2 | 1e-3 | s to CIEDE2000 1 | least "
-        "relMSE "
-        "| reference |\n"
+        "| scene | integrator | s before the first sample | s to relMSE 1e-2 | 1e-3 | s to CIEDE2000 1 "
+        "| least relMSE | reference |\n"
         "|---|---|---|---|---|---|---|---|\n",
         folder.filename().string());
     for (Json const& r : rows["error"])
