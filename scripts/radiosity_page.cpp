@@ -230,7 +230,7 @@ std::string figure(Json const& v) { return v.is_null() ? "-" : fmt::format("{:.3
 void print_errors(Json const& rows, std::filesystem::path const& folder) {
     fmt::print(
         "\n## Error against time\n\n"
-        "256 x 256 pixels; `radiosity` at its default of about 2500 patches, and with 5000 that show what came to them "
+        "256 x 256 pixels; `radiosity` at its default of about 2500 patches, and with 10000 that show what came to them "
         "from no lamp\n"
         "while lamps are sampled; `path`; and `two-pass`, which is path tracing with the radiosity as control variate. "
         "relMSE against a converged picture, without its own, which is the last column.\n\n"

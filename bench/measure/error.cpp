@@ -27,7 +27,8 @@ struct Curve {
 };
 
 // The time at which an error is reached: between two points where they bracket it, else by the power law; absent if
-// there are too few points, if errors do not fall, or if it is more than an hour.
+// there are too few points, if errors do not fall, or no longer as the law says (a biased method's), or if it is more
+// than an hour.
 struct Reached {
     std::optional<double> seconds;
     bool measured;
@@ -45,7 +46,7 @@ Reached time_to(double target, Curve2 const& all, Curve2 const& fitted) {
     PowerLaw const law = fit_power_law(fitted);
     constexpr double too_long = 3600;
     double const seconds = law.x_at(target);
-    if (!(law.slope < -0.05) || !(seconds < too_long)) return {std::nullopt, false};
+    if (!(law.slope < -0.05) || !(seconds > all.back().first && seconds < too_long)) return {std::nullopt, false};
     return {seconds, false};
 }
 
