@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/bench_plot.h"
 
+#include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "app/palette.h"
 #include "base/diagnostics.h"
@@ -56,13 +56,12 @@ void plot_errors(nlohmann::ordered_json const& results, std::filesystem::path co
     std::vector<Panel> const panels = panels_of(results["error"]);
     PlotAxis const x = axis_around(panels, &PlotPoint::x, "log10 (time / s)"),
                    y = axis_around(panels, &PlotPoint::y, "log10 relMSE");
-    std::map<std::string, std::size_t> colour_of;
-    int longest = 0;
+    std::vector<std::string> integrators;  // of all panels; each has a colour
     for (Panel const& panel : panels)
-        for (Line const& line : panel.lines) {
-            colour_of.emplace(line.integrator, colour_of.size());
-            longest = std::max(longest, static_cast<int>(line.integrator.size()));
-        }
+        for (Line const& line : panel.lines)
+            if (std::ranges::find(integrators, line.integrator) == integrators.end())
+                integrators.push_back(line.integrator);
+    int const longest = static_cast<int>(std::ranges::max(integrators, {}, &std::string::size).size());
     int const legend = 80 + 13 * longest;  // pixels
     constexpr int columns = 3, width = 420, height = 340, right = 30, page_width = 600, page_height = 540;
     int const count = static_cast<int>(panels.size());
@@ -72,11 +71,12 @@ void plot_errors(nlohmann::ordered_json const& results, std::filesystem::path co
         Panel const& panel = panels[static_cast<std::size_t>(i)];
         bool const has_legend = i == used_columns - 1;
         Plot plot(width, height, x, y, has_legend ? legend + right : right);
-        for (Line const& line : panel.lines) {
-            std::size_t const k = colour_of.at(line.integrator);
-            Stroke const stroke{line_palette[k % line_palette.size()], 2.5, k >= line_palette.size(), line.integrator};
-            plot.line(line.points, stroke);
-            for (PlotPoint const& p : line.points) plot.disc(p, 4, stroke.colour);
+        for (std::size_t k = 0; k < integrators.size(); ++k) {
+            Stroke const stroke{line_palette[k % line_palette.size()], 2.5, k >= line_palette.size(), integrators[k]};
+            auto const line = std::ranges::find(panel.lines, integrators[k], &Line::integrator);
+            std::vector<PlotPoint> const points = line == panel.lines.end() ? std::vector<PlotPoint>{} : line->points;
+            plot.line(points, stroke);
+            for (PlotPoint const& p : points) plot.disc(p, 4, stroke.colour);
         }
         if (has_legend) plot.legend();
         int const x0 = i % columns * page_width, y0 = i / columns * page_height;

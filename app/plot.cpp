@@ -18,7 +18,7 @@ namespace {
 
 // Pixels.
 constexpr double left = 130, bottom = 105, top = 40, font_size = 22, title_size = 26, gap = 6;
-constexpr double legend_row = 32, legend_line = 46, legend_margin = 16;
+constexpr double legend_row = 27, legend_line = 46, legend_margin = 16;
 
 std::uint32_t premultiplied(PlotColour const& c) {
     auto const byte = [](double v) { return static_cast<std::uint32_t>(std::lround(255 * std::clamp(v, 0.0, 1.0))); };
