@@ -335,7 +335,11 @@ Command add_render(CLI::App& app) {
                      "seconds between two of them, or a pass if that is longer")
         ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
-    parser->add_option("--sampler", o->sampler, "random numbers: sobol (Owen-scrambled), stratified or independent")
+    parser
+        ->add_option(
+            "--sampler", o->sampler,
+            "random numbers: zsobol (Owen-scrambled Sobol' points, shared out among neighbouring pixels), sobol (each "
+            "pixel for itself), stratified or independent; instead of the file's")
         ->check(CLI::IsMember(std::vector<std::string>(sampler_names.begin(), sampler_names.end())));
     parser->add_option("--threads", o->threads, "threads (default: all)")->check(CLI::Range(1, 1024));
     parser->add_option("--size", o->size, "WIDTHxHEIGHT in pixels, instead of the scene's");

@@ -44,7 +44,7 @@ struct RenderDefaults {
     IntegratorChoice integrator{};
     int spp = 64;
     std::uint64_t seed = 0;
-    SamplerKind sampler = SamplerKind::sobol;
+    SamplerKind sampler = SamplerKind::zsobol;
     std::optional<int> max_bounces;
     std::optional<LightSelection> light_selection{};  // absent: the plan decides
 };
