@@ -4,7 +4,9 @@
 // Filled in place: the rest of a SurfacePoint is for those who ask for it (scene/parametrisation.h).
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <limits>
 
 #include "scene/frustum_intersection.h"
 
@@ -22,6 +24,10 @@ inline void set_plain(SurfacePoint& point, Vector const& position, Direction con
     point.size = 0;
 }
 
+// Places keep off the edges of triangles, by some units in the last place of a coordinate as large as they: one in the
+// plane of a wall that stands at the edge would be as good as behind it, and let light into closed bodies.
+inline constexpr float off_edges = 4 * std::numeric_limits<float>::epsilon();
+
 inline void locate(Sphere const& s, Vector const& on_ray, HitCoordinates const&, SurfacePoint& point) {
     Direction const n = (on_ray - s.centre).normalized();
     set_plain(point, s.centre + s.radius * n, n);
@@ -32,7 +38,7 @@ inline void locate(Quad const& q, Vector const&, HitCoordinates const& hit, Surf
     // is as good as random: chosen without a branch.
     bool const first = hit.u + hit.v <= 1;
     Vector const &a = q.corner[first ? 0 : 2], &b = q.corner[first ? 1 : 3], &c = q.corner[first ? 3 : 1];
-    float const u = first ? hit.u : 1 - hit.u, v = first ? hit.v : 1 - hit.v;
+    float const u = std::max(first ? hit.u : 1 - hit.u, off_edges), v = std::max(first ? hit.v : 1 - hit.v, off_edges);
     set_plain(point, a + u * (b - a) + v * (c - a), q.normal);
 }
 inline void locate(Disc const& d, Vector const& on_ray, HitCoordinates const&, SurfacePoint& point) {
@@ -45,7 +51,10 @@ inline void locate(Frustum const& f, Vector const& on_ray, HitCoordinates const&
 inline void locate(MeshShape const& m, Vector const&, HitCoordinates const& hit, SurfacePoint& point) {
     auto const& t = m.mesh->triangle[hit.primitive];
     Vector const &a = m.mesh->position[t[0]], &b = m.mesh->position[t[1]], &c = m.mesh->position[t[2]];
-    float const u = hit.u, v = hit.v, w = 1 - u - v;
+    float u = std::max(hit.u, off_edges), v = std::max(hit.v, off_edges);
+    float const inwards = std::min(1.0f, (1 - off_edges) / (u + v));
+    u *= inwards, v *= inwards;
+    float const w = 1 - u - v;
     Direction const n = (b - a).cross(c - a).normalized();
     set_plain(point, w * a + u * b + v * c, n);
     if (m.smooth && !m.mesh->normal.empty()) {
