@@ -4,8 +4,7 @@
 // that bias and noise both vanish:
 //   c_{i+1}^2 = c_i^2 (i + alpha) / (i + 1),  so  c_i^2 = Gamma(i + alpha) / (Gamma(1 + alpha) i!)
 //                                                             [Hachisuka 2009] [Knaus 2011, eq. 16]
-// Each pass is a function of (seed, number of the pass) alone, of the
-// others only the widest radius is known.
+// Each pass is a function of (seed, number of the pass) alone, of the others only the widest radius is known.
 #pragma once
 
 #include "integrators/photon/packets.h"
