@@ -12,7 +12,8 @@ namespace iride {
 
 namespace {
 
-constexpr int roulette_from = 2;  // scatterings before paths may end by chance
+constexpr int roulette_from = 2;       // scatterings before paths may end by chance
+constexpr std::size_t most_lamps = 3;  // that are asked all at once
 
 // The numbers of the paths of a batch that are still under way.
 class Alive {
@@ -141,7 +142,13 @@ class Path final : public Integrator {
             if constexpr (Media)
                 alive.keep_if([&](std::size_t i) { return travel_on(scene, paths[i], walks[i], statistics); });
             alive.keep_if([&](std::size_t i) { return arrive(scene, paths[i], walks[i], bounce); });
-            if (known_.field) bring_known(scene, paths, walks, alive, bounce, statistics);
+            if (known_.field) {
+                bring_known(scene, paths, walks, alive, bounce, statistics);
+                if (light_sampling_ && scene.lights.size() <= most_lamps) {
+                    light_by_all(scene, paths, walks, alive, between, statistics);
+                    alive.keep_if([&](std::size_t i) { return !is_diffuse(scene, walks[i]); });
+                }
+            }
             if (light_sampling_) ask_lights(scene, paths, walks, alive, between);
             alive.keep_if([&](std::size_t i) {
                 return scatter(scene, paths[i], walks[i], between.shadows) &&
@@ -163,6 +170,11 @@ class Path final : public Integrator {
     // Whether the surface scatters other than by Dirac lobes.
     static bool is_dense(Scene const& scene, Walk const& walk) {
         return scene.material(walk.hit.shape->material).traits.has_density;
+    }
+
+    // Whether the surface scatters so evenly that light samples alone find its light.
+    static bool is_diffuse(Scene const& scene, Walk const& walk) {
+        return !walk.is_afloat() && scene.material(walk.hit.shape->material).traits.diffuse;
     }
 
     static void find_hits(Scene const& scene, std::span<CameraPath const> paths, Walks& walks, Alive const& alive,
@@ -326,7 +338,55 @@ class Path final : public Integrator {
         }
     }
 
+    // At diffuse surfaces where the rest is known: what every lamp brings. Nothing is left for the path to find.
+    void light_by_all(Scene const& scene, std::span<CameraPath> paths, Walks& walks, Alive const& alive,
+                      Exchange& between, RayStatistics& statistics) const {
+        for (std::size_t lamp = 0; lamp < scene.lights.size(); ++lamp) {
+            std::size_t count = 0;
+            alive.for_each([&](std::size_t i) {
+                if (!is_diffuse(scene, walks[i])) return;
+                VertexNumbers const& numbers = walks[i].numbers;
+                LightRequest& request = between.requests[count];
+                request.from = walks[i].place();
+                request.normal = side_of(walks[i], paths[i]);
+                request.u = std::array{numbers.light, numbers.direction, numbers.choices}[lamp];
+                request.wavelengths = &paths[i].wavelengths;
+                between.asking[count++] = {i, {static_cast<int>(lamp), 1}};
+            });
+            auto const requests = std::span(between.requests).first(count);
+            scene.lights.light(static_cast<int>(lamp)).answer(requests);
+            for (std::size_t k = 0; k < count; ++k) {
+                requests[k].normal.setZero();
+                if (!requests[k].sample) continue;
+                Walk& walk = walks[between.asking[k].walk];
+                CameraPath& path = paths[between.asking[k].walk];
+                walk.light = &*requests[k].sample;
+                walk.choice = between.asking[k].choice;
+                weigh<Rivals::none>(scene, meeting(scene, path, walk), path, walk, between.shadows);
+            }
+            add_direct_light(scene, between.shadows, statistics);
+        }
+    }
+
+    // The normal on the side that the path comes from.
+    static Direction side_of(Walk const& walk, CameraPath const& path) {
+        Direction const& n = walk.hit.point.geometric_normal;
+        return path.ray.direction.dot(n) > 0 ? Direction(-n) : n;
+    }
+
+    static Interaction meeting(Scene const& scene, CameraPath const& path, Walk& walk) {
+        Direction const to_viewer = -path.ray.direction;
+        describe_meeting(walk.hit.point, to_viewer, walk.numbers.chances.y);
+        Surroundings* in = nullptr;
+        if constexpr (Media) in = &walk.in;
+        return Interaction(scene, walk.hit, to_viewer, path.wavelengths, in);
+    }
+
+    // What else may find the light that a light sample brings.
+    enum class Rivals { none, scattering };
+
     // What a light sample brings along the path if nothing stands between.
+    template <Rivals rivals = Rivals::scattering>
     static void weigh(Scene const& scene, Interaction const& here, CameraPath& path, Walk const& walk,
                       Shadows& shadows) {
         LightSample const& light = *walk.light;
@@ -337,7 +397,7 @@ class Path final : public Integrator {
         float const cosine = std::abs(wi.z());
         Lanes competitors(walk.choice.probability);
         if (light.density) {
-            Lanes found(f.density.lane);
+            Lanes found(rivals == Rivals::none ? Lanes(0) : Lanes(f.density.lane));
             if constexpr (Scattering)
                 found *= passing_probability(behind(scene, walk.hit, here, wi, walk.in).medium(), light.distance,
                                              path.wavelengths);
@@ -374,11 +434,7 @@ class Path final : public Integrator {
     // here.
     bool scatter(Scene const& scene, CameraPath& path, Walk& walk, Shadows& shadows) const {
         if (walk.is_afloat()) return scatter_afloat(path, walk, shadows);
-        Direction const to_viewer = -path.ray.direction;
-        describe_meeting(walk.hit.point, to_viewer, walk.numbers.chances.y);
-        Surroundings const* in = nullptr;
-        if constexpr (Media) in = &walk.in;
-        Interaction const here(scene, walk.hit, to_viewer, path.wavelengths, in);
+        Interaction const here = meeting(scene, path, walk);
         if (light_sampling_ && walk.light) weigh(scene, here, path, walk, shadows);
         auto const sample = here.bsdf.sample(here.wo, {walk.numbers.choices.y, walk.numbers.direction});
         if (!sample) return false;
@@ -391,7 +447,7 @@ class Path final : public Integrator {
         walk.state.weight *= sample->weight;
         walk.arrival.density = sample->density;
         walk.light_is_known = known_.field && sample->density;
-        walk.arrival.from = receiver_of(scene, to_viewer, walk);
+        walk.arrival.from = receiver_of(scene, -path.ray.direction, walk);
         if (ray_cones_)
             walk.cone = walk.cone.scattered(walk.hit.distance, sample->density ? &*sample->density : nullptr);
         path.ray = spawn_ray(walk.hit.point, wi);

@@ -21,6 +21,7 @@ struct MaterialTraits {
     bool transmits = false;    // some light goes through
     bool filmed = false;       // thin films interfere
     bool textured = false;     // looks at uv
+    bool diffuse = false;      // scatters all over the side that light comes from, with no peak
     bool anisotropic = false;  // looks at the tangent
     Vector2 grain{1, 0};       // x axis of anisotropic facets along tangent and bitangent of the surface
 };

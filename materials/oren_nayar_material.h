@@ -11,7 +11,9 @@ class OrenNayarMaterial : public Material {
   public:
     // roughness: 0 (Lambert) .. 1.
     OrenNayarMaterial(ReflectanceMap reflectance, float roughness)
-        : Material({.textured = reflectance.varies()}), reflectance_(std::move(reflectance)), roughness_(roughness) {}
+        : Material({.textured = reflectance.varies(), .diffuse = true}),
+          reflectance_(std::move(reflectance)),
+          roughness_(roughness) {}
     Bsdf at(SurfacePoint const& point, Wavelengths const& w) const override {
         return OrenNayar{reflectance_.at(point, w), roughness_};
     }

@@ -2,6 +2,7 @@
 // Emitters on shapes.
 #include <array>
 
+#include "base/bilinear.h"
 #include "base/simd.h"
 #include "base/spherical.h"
 #include "scene/light.h"
@@ -218,16 +219,43 @@ class RectangleLight final : public AreaLight {
         }
         SphericalRectangle<Real8> const seen(rectangle_, {x, y, z});
         Real8 const solid_angle = seen.solid_angle();
+        Real8 density = 1 / solid_angle;
+        if (requests.front().normal != Vector(0, 0, 0)) {
+            auto const place = BilinearDensity<Real8>(cosines_of_corners(requests, {x, y, z})).sample(u, v);
+            u = place.x, v = place.y, density *= place.density;
+        }
         std::array<Real8, 3> const d = seen.sample(u, v);
         for (std::size_t i = 0; i < requests.size(); ++i) {
             LightRequest& r = requests[i];
             r.sample.reset();
             if (!shines(rectangle_.corner - r.from, rectangle_.normal)) continue;
             if (solid_angle[i] > smallest_solid_angle)
-                put(r, {d[0][i], d[1][i], d[2][i]}, rectangle_.normal, PerSteradian(1 / solid_angle[i]));
+                put(r, {d[0][i], d[1][i], d[2][i]}, rectangle_.normal, PerSteradian(density[i]));
             else
                 sample_area(r);
         }
+    }
+
+    // At the receivers, of the directions to the rectangle's corners; a little above 0 where they are below.
+    std::array<Real8, 4> cosines_of_corners(std::span<LightRequest const> requests,
+                                            std::array<Real8, 3> const& from) const {
+        constexpr float least = 0.01f;
+        std::array<Real8, 3> n{};
+        for (std::size_t i = 0; i < requests.size(); ++i)
+            for (std::size_t k = 0; k < 3; ++k) n[k][i] = requests[i].normal[static_cast<Eigen::Index>(k)];
+        std::array<Real8, 4> cosines;
+        for (int c = 0; c < 4; ++c) {
+            Vector const corner = rectangle_.corner + static_cast<float>(c % 2) * rectangle_.width * rectangle_.x +
+                                  static_cast<float>(c / 2) * rectangle_.height * rectangle_.y;
+            Real8 along{}, length2{};
+            for (std::size_t k = 0; k < 3; ++k) {
+                Real8 const d = corner[static_cast<Eigen::Index>(k)] - from[k];
+                along += d * n[k];
+                length2 += d * d;
+            }
+            cosines[static_cast<std::size_t>(c)] = larger(along / square_root(length2), Real8{} + least);
+        }
+        return cosines;
     }
 
     void sample_area(LightRequest& r) const {

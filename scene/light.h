@@ -32,6 +32,9 @@ struct LightRequest {
     Sample2 u;
     Wavelengths const* wavelengths;
     std::optional<LightSample> sample = {};
+    // Of the surface there: a light may then prefer what falls on it less obliquely, with a density that nothing but
+    // the answer tells. 0: as density() has it.
+    Vector normal{0, 0, 0};
 };
 
 class Light {

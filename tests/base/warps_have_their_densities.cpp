@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "base/bilinear.h"
 #include "base/spherical.h"
 #include "support/statistics.h"
 
@@ -65,6 +66,25 @@ TEST_CASE("points of discs and triangles are uniform in area", "[law]") {
               double const sum = static_cast<double>(b.x()) + static_cast<double>(b.y());
               return std::pair(sum * sum, sum > 0 ? static_cast<double>(b.x()) / sum : 0.5);
           }) > level);
+}
+
+// Of its density f, the mean of g / f over samples is the integral of g. Fails for x and y in each other's place.
+TEST_CASE("places in the unit square have their bilinear density", "[law]") {
+    BilinearDensity<float> const density({0.2f, 1.1f, 0.01f, 2.5f});
+    constexpr std::uint32_t count = 1 << 16;
+    double area = 0, moment = 0, mean_x = 0;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        Sample2 const u = Sampler(SamplerKind::sobol, 42, 0, i).next2();
+        auto const [x, y, f] = density.sample(u.x, u.y);
+        auto const one = 1 / static_cast<double>(f);
+        area += one / count;
+        moment += one * static_cast<double>(x * x * y) / count;
+        mean_x += static_cast<double>(x) / count;
+    }
+    CHECK(area == Approx(1).epsilon(1e-3));
+    CHECK(moment == Approx(1.0 / 6).epsilon(1e-3));
+    // (1/4) (c00 + c01) / 6 + (c10 + c11) / 3 over the mean of all four.
+    CHECK(mean_x == Approx((0.21 / 6 + 3.6 / 3) * 0.5 / (3.81 / 4)).epsilon(1e-4));
 }
 
 TEST_CASE("directions in spherical triangles and rectangles are uniform in solid angle", "[law]") {

@@ -114,6 +114,27 @@ TEST_CASE("a mesh lamp is sampled by area and each triangle uniformly in solid a
         {0.1f, 0, 0.2f});
 }
 
+// Of the directions to a ceiling from a wall at its side. Fails for a density that is not the sampled one's.
+TEST_CASE("a rectangle asked with a normal finds the same irradiance with less noise", "[law]") {
+    auto const scene = lamp(R"("type": "quad", "corners": [[-1,1,-1],[1,1,-1],[1,1,1.5],[-1,1,1.5]])");
+    Wavelengths const w = some_wavelengths(scene->grid);
+    Direction const n(-1, 0, 0);
+    constexpr int samples = 1 << 14;
+    auto const irradiance = [&](Vector const& normal) {
+        return test::replicated(samples, [&](int i) {
+            Sample2 const u = Sampler(SamplerKind::independent, 23, 0, static_cast<std::uint32_t>(i)).next2();
+            LightRequest request{{0.9f, 0.1f, 0.2f}, u, &w};
+            request.normal = normal;
+            scene->lights.light(0).answer({&request, 1});
+            REQUIRE(request.sample);
+            return static_cast<double>(std::max(0.0f, request.sample->wi.dot(n)) / request.sample->density->value);
+        });
+    };
+    test::Replicated const even = irradiance(Vector(0, 0, 0)), preferring = irradiance(n);
+    CHECK(std::abs(even.mean - preferring.mean) < 4 * std::hypot(even.error, preferring.error));
+    CHECK(preferring.error < even.error / 2);
+}
+
 // Closed forms, near (by solid angle) and so far that lamps are sampled by area. Fails for a density by area without
 // the cosine.
 TEST_CASE("the mean of one over the density is the lamp's solid angle", "[law]") {
