@@ -42,11 +42,15 @@ std::vector<VectorDouble> open_points(PatchMesh const& mesh, PatchTracer const& 
     return open;
 }
 
+VectorDouble nearest(std::vector<VectorDouble> const& points, VectorDouble const& to) {
+    return *std::ranges::min_element(points, {}, [&](VectorDouble const& p) { return (p - to).squaredNorm(); });
+}
+
 // The point nearest to the mean of all.
 VectorDouble middle_of(std::vector<VectorDouble> const& points) {
     VectorDouble mean = VectorDouble::Zero();
     for (VectorDouble const& p : points) mean += p / static_cast<double>(points.size());
-    return *std::ranges::min_element(points, {}, [&](VectorDouble const& p) { return (p - mean).squaredNorm(); });
+    return nearest(points, mean);
 }
 
 }  // namespace
@@ -56,9 +60,10 @@ void find_open_parts(PatchMesh& mesh) {
     constexpr int first_look = 16, second_look = 128, closer_look = 1024;
     std::vector<std::vector<VectorDouble>> found(mesh.patch.size());
     tbb::parallel_for(std::size_t{0}, mesh.patch.size(), [&](std::size_t i) {
+        Patch& p = mesh.patch[i];
+        if (!std::exchange(p.doubtful, false)) return;
         std::size_t const seen = open_points(mesh, tracer, i, first_look).size();
         if (seen == first_look) return;
-        Patch& p = mesh.patch[i];
         bool const covered = seen == 0 && open_points(mesh, tracer, i, second_look).empty();
         if (!covered) found[i] = open_points(mesh, tracer, i, closer_look);
         p.open = static_cast<double>(found[i].size()) / closer_look;
@@ -78,6 +83,10 @@ VectorDouble point_on(PatchMesh const& mesh, Patch const& p, Sample2 u) {
     auto const& points = mesh.open_points[static_cast<std::size_t>(p.open_points)];
     auto const k = static_cast<std::size_t>(u.x * static_cast<float>(points.size()));
     return points[std::min(k, points.size() - 1)];
+}
+
+VectorDouble open_point_by(PatchMesh const& mesh, Patch const& p, VectorDouble const& place) {
+    return nearest(mesh.open_points[static_cast<std::size_t>(p.open_points)], place);
 }
 
 }  // namespace iride::radiosity

@@ -10,10 +10,14 @@
 
 namespace iride::radiosity {
 
+// Of patches that are doubtful.
 void find_open_parts(PatchMesh& mesh);
 
 // A point of a patch, uniform over its open part.
 VectorDouble point_on(PatchMesh const& mesh, Patch const& p, Sample2 u);
+
+// The open one nearest to `place`, of a patch that lies open in part.
+VectorDouble open_point_by(PatchMesh const& mesh, Patch const& p, VectorDouble const& place);
 
 // A direction by the cosine to a unit normal.
 inline VectorDouble way_by_cosine(VectorDouble const& normal, Sampler& sampler) {

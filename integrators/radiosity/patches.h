@@ -22,6 +22,7 @@ struct Patch {
     double area;           // m^2, of what lies open; of a patch that lies against others altogether, its own
     double open = 1;       // share of its own area, exposure.h
     int open_points = -1;  // index into PatchMesh::open_points, where 0 < open < 1
+    bool doubtful = true;  // whether `open` is still to be found
     double open_area() const { return open > 0 ? area : 0; }
 };
 

@@ -42,6 +42,7 @@ class Splitter {
         to_.mesh.position = from_.mesh.position;
         to_.mesh.shape = from_.mesh.shape;
         to_.mesh.slivers = from_.mesh.slivers;
+        to_.mesh.open_points = from_.mesh.open_points;
     }
 
     Elements split(std::vector<char> const& flagged) {
@@ -104,25 +105,30 @@ class Splitter {
             front.opposite >= 0 ? &from_.mesh.patch[static_cast<std::size_t>(front.opposite)] : nullptr;
         std::array<int, 9> const there = back ? numbers(*back, true, with_centre) : here;
         for (Part const& part : parts) {
-            int const first = add_part(front, part, here, false);
+            int const first = add_part(front, part, here, false, parts.size() == 1);
             if (!back) continue;
-            int const second = add_part(*back, part, there, true);
+            int const second = add_part(*back, part, there, true, parts.size() == 1);
             to_.mesh.patch[static_cast<std::size_t>(first)].opposite = second;
             to_.mesh.patch[static_cast<std::size_t>(second)].opposite = first;
         }
     }
-    int add_part(Patch const& of, Part const& part, std::array<int, 9> const& number, bool turned) {
+    int add_part(Patch const& of, Part const& part, std::array<int, 9> const& number, bool turned, bool whole) {
         Patch p = of;
-        p.corners = static_cast<int>(part.size());
         p.opposite = -1;
+        to_.parent.push_back(from_.parent[static_cast<std::size_t>(&of - from_.mesh.patch.data())]);
+        if (whole) {
+            to_.mesh.patch.push_back(p);
+            return static_cast<int>(to_.mesh.patch.size()) - 1;
+        }
+        p.corners = static_cast<int>(part.size());
         for (std::size_t k = 0; k < 4; ++k)
             p.vertex[k] = number[static_cast<std::size_t>(part[std::min(k, part.size() - 1)])];
         if (turned) std::reverse(p.vertex.begin(), p.vertex.begin() + p.corners);
-        p.open = 1;
+        p.doubtful = of.open_points >= 0;
         p.open_points = -1;
+        if (p.doubtful) p.open = 1;
         measure(to_.mesh, p);
         to_.mesh.patch.push_back(p);
-        to_.parent.push_back(from_.parent[static_cast<std::size_t>(&of - from_.mesh.patch.data())]);
         return static_cast<int>(to_.mesh.patch.size()) - 1;
     }
 

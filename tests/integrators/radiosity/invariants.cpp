@@ -9,6 +9,7 @@
 
 #include "base/constants.h"
 #include "integrators/radiosity/closed_forms.h"
+#include "integrators/radiosity/exposure.h"
 #include "integrators/radiosity/form_factor_methods.h"
 #include "integrators/radiosity/solvers.h"
 #include "integrators/radiosity/substructure.h"
@@ -318,6 +319,28 @@ TEST_CASE("splitting leaves no T-junctions, and both sides of a surface alike", 
         CHECK((p.centre - q.centre).norm() < 1e-12);
         CHECK((p.normal + q.normal).norm() < 1e-12);
         CHECK(p.area == Approx(q.area).epsilon(1e-12));
+    }
+}
+
+// A box of .3 x .3 stands on a floor of 2 x 2, across the edges of its patches.
+TEST_CASE("parts of patches lie open where the patches do", "[law]") {
+    auto const scene = test::scene_from(
+        R"({"camera":{"eye":[0,1,-3],"target":[0,0,0],"field_deg":40},"shapes":[
+        {"type":"quad","material":{"type":"diffuse","reflectance":0.5},"corners":[[-1,0,1],[1,0,1],[1,0,-1],[-1,0,-1]]},
+        {"type":"box","material":{"type":"diffuse","reflectance":0.5},"min":[-0.1,0,-0.2],"max":[0.2,0.4,0.1]}]})");
+    PatchMesh mesh = make_patches(*scene, 0.5);
+    auto const open_floor = [&] {
+        double area = 0;
+        for (Patch const& p : mesh.patch)
+            if (p.shape == 0) area += p.open_area();
+        return area;
+    };
+    CHECK(open_floor() == Approx(4 - 0.09).epsilon(3e-3));
+    for (int level = 0; level < 3; ++level) {
+        mesh = split(whole_patches(mesh), std::vector<char>(mesh.patch.size(), true)).mesh;
+        find_open_parts(mesh);
+        INFO("level " << level);
+        CHECK(open_floor() == Approx(4 - 0.09).epsilon(3e-3));
     }
 }
 
