@@ -15,9 +15,18 @@ namespace {
 // A difference of colours holds the reference's own error, which is to be at most a quarter of it.
 constexpr double clearly_above = 4;
 
+struct Errors {
+    double relmse, delta_e_2000;
+};
+Errors errors_of(Film const& film, Reference const& reference) {
+    XyzPicture const picture = picture_of(film);
+    return {reference.relmse_of(picture), compare(picture, reference.picture).delta_e_2000_mean};
+}
+
 struct Point {
     int spp;
-    double seconds, relmse, delta_e_2000;
+    double seconds;
+    Errors error;
 };
 
 struct Curve {
@@ -65,9 +74,7 @@ Curve measure_curve(Scene const& scene, std::string const& name, Reference const
         RenderSettings const r{.spp = spp, .seed = static_cast<std::uint64_t>(spp), .threads = settings.threads};
         last = render(scene, plan, *integrator, r, film).seconds;
         used += last;
-        XyzPicture const picture = picture_of(film);
-        curve.points.push_back({spp, last + curve.setup_seconds, reference.relmse_of(picture),
-                                compare(picture, reference.picture).delta_e_2000_mean});
+        curve.points.push_back({spp, last + curve.setup_seconds, errors_of(film, reference)});
     }
     return curve;
 }
@@ -76,17 +83,19 @@ nlohmann::ordered_json summary(Curve const& curve, Reference const& reference) {
     Curve2 relmse, colour, relmse_fitted, colour_fitted;
     nlohmann::ordered_json points = nlohmann::ordered_json::array();
     for (Point const& p : curve.points) {
-        relmse.emplace_back(p.seconds, p.relmse);
-        colour.emplace_back(p.seconds, p.delta_e_2000);
+        relmse.emplace_back(p.seconds, p.error.relmse);
+        colour.emplace_back(p.seconds, p.error.delta_e_2000);
         constexpr int settled_spp = 4;  // fewer: the sampler's strata are not filled
-        if (p.spp >= settled_spp && p.relmse > reference.relmse) relmse_fitted.push_back(relmse.back());
-        if (p.spp >= settled_spp && p.delta_e_2000 > clearly_above * reference.delta_e_2000)
+        if (p.spp >= settled_spp && p.error.relmse > reference.relmse) relmse_fitted.push_back(relmse.back());
+        if (p.spp >= settled_spp && p.error.delta_e_2000 > clearly_above * reference.delta_e_2000)
             colour_fitted.push_back(colour.back());
-        points.push_back(
-            {{"spp", p.spp}, {"seconds", p.seconds}, {"relmse", p.relmse}, {"delta_e_2000", p.delta_e_2000}});
+        points.push_back({{"spp", p.spp},
+                          {"seconds", p.seconds},
+                          {"relmse", p.error.relmse},
+                          {"delta_e_2000", p.error.delta_e_2000}});
     }
     Reached const e2 = time_to(1e-2, relmse, relmse_fitted), e3 = time_to(1e-3, relmse, relmse_fitted),
-                  de = time_to(1, colour, colour_fitted);
+                  e4 = time_to(1e-4, relmse, relmse_fitted), de = time_to(1, colour, colour_fitted);
     Point const& last = curve.points.back();
     nlohmann::ordered_json slope = nullptr;
     if (relmse_fitted.size() >= 3) slope = fit_power_law(relmse_fitted).slope;
@@ -94,15 +103,17 @@ nlohmann::ordered_json summary(Curve const& curve, Reference const& reference) {
             {"integrator", curve.integrator},
             {"spp", last.spp},
             {"seconds", last.seconds},
-            {"relmse", last.relmse},
-            {"delta_e_2000", last.delta_e_2000},
+            {"relmse", last.error.relmse},
+            {"delta_e_2000", last.error.delta_e_2000},
             {"reference_relmse", reference.relmse},
             {"reference_delta_e", reference.delta_e_2000},
             {"slope", slope},
             {"s_to_relmse_1e-2", as_json(e2)},
             {"s_to_relmse_1e-3", as_json(e3)},
+            {"s_to_relmse_1e-4", as_json(e4)},
             {"s_to_delta_e_1", as_json(de)},
             {"extrapolated", !(e2.measured && e3.measured && de.measured)},
+            {"extrapolated_1e-4", !e4.measured},
             {"setup_seconds", curve.setup_seconds},
             {"points", points}};
 }
@@ -149,9 +160,9 @@ Rows measure_peers(Settings const& settings) {
             Film film = make_film(*scene);
             RenderSettings const r{.spp = spp, .seed = static_cast<std::uint64_t>(round), .threads = threads};
             seconds.push_back(render(*scene, plan, *integrator, r, film).seconds);
-            XyzPicture const picture = picture_of(film);
-            relmse.push_back(reference.relmse_of(picture));
-            colour.push_back(compare(picture, reference.picture).delta_e_2000_mean);
+            auto const [of_light, of_colour] = errors_of(film, reference);
+            relmse.push_back(of_light);
+            colour.push_back(of_colour);
         }
         Spread const t = spread_of(seconds), e = spread_of(relmse);
         double const paths = static_cast<double>(spp) * picture_size * picture_size;
