@@ -44,7 +44,7 @@ constexpr std::array<IntegratorEntry, 16> table{{
      "how much of a sky each place would see; sampling= uniform, cosine; distance=", make_ambient_occlusion},
     {"radiosity",
      "diffuse surfaces cut into patches, solved for every wavelength: no noise; patches=, wavelengths=, form_factors=; "
-     "direct_light= patches, lamps",
+     "direct_light= patches, lamps; last_gather= rays",
      radiosity::make_radiosity},
     {"directional-radiosity",
      "the same where surfaces are rough, patch to patch to patch, for small scenes; patches=, wavelengths=",

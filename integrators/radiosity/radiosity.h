@@ -8,6 +8,7 @@
 #include "integrators/integrator.h"
 #include "integrators/radiosity/field.h"
 #include "integrators/radiosity/form_factor_methods.h"
+#include "integrators/radiosity/last_gather.h"
 #include "integrators/radiosity/solvers.h"
 #include "integrators/radiosity/stochastic.h"
 
@@ -57,6 +58,14 @@ class SceneRadiosity {
     // What patches send out without what their lamps emit; and of that, what did not come straight from a lamp.
     Spectra reflected() const;
     Spectra indirect() const { return system_.reflectance * gathered(system_, reflected()); }
+    // That as it is looked at: as patches have it, and gathered once more where it is seen.
+    std::shared_ptr<RadiosityField const> indirect_field() const { return field_of(indirect()); }
+    std::shared_ptr<RadiosityField const> indirect_field(Seen const& seen_in, LampLight const& lamps,
+                                                         LastGather const& settings,
+                                                         std::vector<std::string>& remarks) const {
+        return gathered_where_seen({mesh_, *tracer_, wavelengths_nm(), system_.reflectance, reflected(), indirect()},
+                                   lamps, seen_in, settings, remarks);
+    }
     PatchTracer const& tracer() const { return field_->tracer(); }
     Radiance radiance(PatchHit const& hit, Wavelengths const& wavelengths) const {
         return field_->radiance(hit, wavelengths);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The integrator that looks at a solution: the first patch along a camera ray that is no mirror, or the environment.
+#include <fmt/format.h>
+
 #include "integrators/path.h"
 #include "integrators/radiosity/mirrors.h"
 #include "integrators/radiosity/radiosity.h"
@@ -49,6 +51,23 @@ class Show final : public Integrator {
     std::vector<std::string> remarks_;
 };
 
+// By a camera ray through each pixel.
+Seen seen_by_camera(Scene const& scene, RenderPlan const& plan) {
+    int const width = scene.film.width, height = scene.film.height;
+    return [&scene, width, height, starter = PathStarter(scene, plan, width, height, SamplerKind::sobol, 0)](
+               PatchTracer const& tracer, std::size_t patches) {
+        std::vector<int> seen(patches, 0);
+        CameraPath path;
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x) {
+                starter.start(x, y, 0, path);
+                if (auto const hit = tracer.closest(path.ray); hit && hit->patch >= 0)
+                    ++seen[static_cast<std::size_t>(hit->patch)];
+            }
+        return seen;
+    };
+}
+
 }  // namespace
 
 std::unique_ptr<Integrator> show(std::shared_ptr<RadiosityField const> field, std::vector<std::string> remarks) {
@@ -61,17 +80,28 @@ std::unique_ptr<Integrator> make_radiosity(Scene const& scene, RenderPlan const&
     bool const from_lamps = options.one_of("direct_light", direct_light, false);
     settings.patches = options.integer("patches", 1, 1000000, settings.patches);
     settings.wavelengths = options.integer("wavelengths", 2, 1000, settings.wavelengths);
+    int const last_gather = options.integer("last_gather", 0, 1 << 20, 0);
     settings.form_factors = options.word("form_factors", form_factor_methods(), settings.form_factors);
     if (from_lamps && std::ranges::any_of(scene.materials, is_mirror))
         options.error_at(
             "direct_light",
             "found a mirror among the materials, by which lamps light surfaces that patches would leave out; "
             "allowed: patches");
+    if (last_gather > 0 && !from_lamps)
+        options.error_at(
+            "last_gather",
+            fmt::format("found {}, allowed: 0, or direct_light=lamps beside it: rays of vertices find what "
+                        "came from no lamp",
+                        last_gather));
     options.finish();
     SceneRadiosity const solution(scene, plan.wavelengths, settings);
-    if (from_lamps)
-        return path_until_known(scene, plan, {solution.field_of(solution.indirect()), solution.report().remarks});
-    return show(solution.field(), solution.report().remarks);
+    if (!from_lamps) return show(solution.field(), solution.report().remarks);
+    LampLight const lamps(scene, plan, solution.tracer(), solution.wavelengths_nm());
+    KnownIndirect known{solution.indirect_field(), solution.report().remarks};
+    if (last_gather > 0)
+        known.field = solution.indirect_field(seen_by_camera(scene, plan), lamps, {last_gather, settings.memory_bytes},
+                                              known.remarks);
+    return path_until_known(scene, plan, std::move(known));
 }
 
 }  // namespace iride::radiosity

@@ -138,6 +138,12 @@ TEST_CASE("directional radiosity of rough metal and plastic is as bright as by p
     check_means(*scene, "directional-radiosity:patches=250", 2e-2);
 }
 
+TEST_CASE("a last gather with sampled lamps alone is refused", "[input]") {
+    auto const scene = room_with(R"({"type":"black"})", R"({"type":"diffuse","reflectance":0.4})");
+    CHECK_THROWS_WITH(make_integrator("radiosity:last_gather=64", *scene, make_plan(*scene)),
+                      Catch::Contains("last_gather: found 64, allowed: 0, or direct_light=lamps"));
+}
+
 TEST_CASE("sampled lamps over a radiosity solution are refused where mirrors carry their light", "[input]") {
     auto const scene = room_with(silver, R"({"type":"diffuse","reflectance":0.4})");
     CHECK_THROWS_WITH(make_integrator("radiosity:direct_light=lamps", *scene, make_plan(*scene)),
