@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The integrator that looks at a solution: the first patch along a camera ray that is no mirror, or the environment.
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <atomic>
 
 #include "integrators/path.h"
 #include "integrators/radiosity/mirrors.h"
@@ -54,16 +57,17 @@ class Show final : public Integrator {
 // By a camera ray through each pixel.
 Seen seen_by_camera(Scene const& scene, RenderPlan const& plan) {
     int const width = scene.film.width, height = scene.film.height;
-    return [&scene, width, height, starter = PathStarter(scene, plan, width, height, SamplerKind::sobol, 0)](
+    return [width, height, starter = PathStarter(scene, plan, width, height, SamplerKind::sobol, 0)](
                PatchTracer const& tracer, std::size_t patches) {
         std::vector<int> seen(patches, 0);
-        CameraPath path;
-        for (int y = 0; y < height; ++y)
+        tbb::parallel_for(0, height, [&](int y) {
+            CameraPath path;
             for (int x = 0; x < width; ++x) {
                 starter.start(x, y, 0, path);
                 if (auto const hit = tracer.closest(path.ray); hit && hit->patch >= 0)
-                    ++seen[static_cast<std::size_t>(hit->patch)];
+                    std::atomic_ref(seen[static_cast<std::size_t>(hit->patch)]).fetch_add(1, std::memory_order_relaxed);
             }
+        });
         return seen;
     };
 }
