@@ -76,7 +76,7 @@ def errors(rows):
           "256 x 256 pixels; relMSE and mean CIEDE2000 against the mean of two independent long renders, whose own error (bar) is a "
           "quarter of the relMSE and half of the CIEDE2000 between them; it is left out of the relMSE (bench/README.md). Each sample "
           "count is a render of its own; `slope` is fitted to "
-          "log relMSE over log time where relMSE is more than the bar (-1: independent samples). ~: some of the three times is "
+          "log relMSE over log time of sampling where relMSE is more than the bar (-1: independent samples). ~: some of the three times is "
           "extrapolated along that slope; -: not within an hour, or not to be told by this reference.")
     print("![relMSE over time, a panel for each scene](performance.png)\n")
     table(["scene", "integrator", "spp", "s", "relMSE", "bar", "CIEDE2000", "bar", "slope", "s to relMSE .01", "s to .001",

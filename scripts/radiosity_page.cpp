@@ -239,7 +239,7 @@ void print_errors(Json const& rows, std::filesystem::path const& folder) {
         "control variate. relMSE against a converged picture, without its own, which is the last column; 1e-4 is a "
         "root "
         "mean square\n"
-        "of 1 %. ~: extrapolated along the slope of log relMSE over log time.\n\n"
+        "of 1 %. ~: extrapolated along the slope of log relMSE over log time of sampling.\n\n"
         "![relMSE over time]({}/error.png)\n\n"
         "| scene | integrator | s before the first sample | s to relMSE 1e-2 | 1e-3 | 1e-4 | s to CIEDE2000 1 "
         "| least relMSE | reference |\n"

@@ -35,14 +35,14 @@ struct Curve {
     std::vector<Point> points;
 };
 
-// The time at which an error is reached: between two points where they bracket it, else by the power law; absent if
-// there are too few points, if errors do not fall, or no longer as the law says (a biased method's), or if it is more
-// than an hour.
+// The time of sampling after which an error is reached: between two points where they bracket it, else by the power
+// law; absent if there are too few points, if errors do not fall, or no longer half as steeply as the law says (a
+// biased method's), or if it is more than an hour.
 struct Reached {
     std::optional<double> seconds;
     bool measured;
 };
-using Curve2 = std::vector<std::pair<double, double>>;  // seconds, error
+using Curve2 = std::vector<std::pair<double, double>>;  // seconds of sampling, error
 
 Reached time_to(double target, Curve2 const& all, Curve2 const& fitted) {
     if (!all.empty() && all.front().second <= target) return {all.front().first, true};
@@ -55,12 +55,14 @@ Reached time_to(double target, Curve2 const& all, Curve2 const& fitted) {
     PowerLaw const law = fit_power_law(fitted);
     constexpr double too_long = 3600;
     double const seconds = law.x_at(target);
+    std::array const latest{all[all.size() - 2], all.back()};
+    if (fit_power_law(latest).slope > law.slope / 2) return {std::nullopt, false};
     if (!(law.slope < -0.05) || !(seconds > all.back().first && seconds < too_long)) return {std::nullopt, false};
     return {seconds, false};
 }
 
-nlohmann::ordered_json as_json(Reached const& r) {
-    return r.seconds ? nlohmann::ordered_json(*r.seconds) : nlohmann::ordered_json(nullptr);
+nlohmann::ordered_json as_json(Reached const& r, double setup_seconds) {
+    return r.seconds ? nlohmann::ordered_json(setup_seconds + *r.seconds) : nlohmann::ordered_json(nullptr);
 }
 
 Curve measure_curve(Scene const& scene, std::string const& name, Reference const& reference, Settings const& settings) {
@@ -83,8 +85,9 @@ nlohmann::ordered_json summary(Curve const& curve, Reference const& reference) {
     Curve2 relmse, colour, relmse_fitted, colour_fitted;
     nlohmann::ordered_json points = nlohmann::ordered_json::array();
     for (Point const& p : curve.points) {
-        relmse.emplace_back(p.seconds, p.error.relmse);
-        colour.emplace_back(p.seconds, p.error.delta_e_2000);
+        double const sampling = p.seconds - curve.setup_seconds;
+        relmse.emplace_back(sampling, p.error.relmse);
+        colour.emplace_back(sampling, p.error.delta_e_2000);
         constexpr int settled_spp = 4;  // fewer: the sampler's strata are not filled
         if (p.spp >= settled_spp && p.error.relmse > reference.relmse) relmse_fitted.push_back(relmse.back());
         if (p.spp >= settled_spp && p.error.delta_e_2000 > clearly_above * reference.delta_e_2000)
@@ -108,10 +111,10 @@ nlohmann::ordered_json summary(Curve const& curve, Reference const& reference) {
             {"reference_relmse", reference.relmse},
             {"reference_delta_e", reference.delta_e_2000},
             {"slope", slope},
-            {"s_to_relmse_1e-2", as_json(e2)},
-            {"s_to_relmse_1e-3", as_json(e3)},
-            {"s_to_relmse_1e-4", as_json(e4)},
-            {"s_to_delta_e_1", as_json(de)},
+            {"s_to_relmse_1e-2", as_json(e2, curve.setup_seconds)},
+            {"s_to_relmse_1e-3", as_json(e3, curve.setup_seconds)},
+            {"s_to_relmse_1e-4", as_json(e4, curve.setup_seconds)},
+            {"s_to_delta_e_1", as_json(de, curve.setup_seconds)},
             {"extrapolated", !(e2.measured && e3.measured && de.measured)},
             {"extrapolated_1e-4", !e4.measured},
             {"setup_seconds", curve.setup_seconds},
