@@ -100,11 +100,14 @@ std::unique_ptr<Integrator> make_radiosity(Scene const& scene, RenderPlan const&
     options.finish();
     SceneRadiosity const solution(scene, plan.wavelengths, settings);
     if (!from_lamps) return show(solution.field(), solution.report().remarks);
-    LampLight const lamps(scene, plan, solution.tracer(), solution.wavelengths_nm());
-    KnownIndirect known{solution.indirect_field(), solution.report().remarks};
-    if (last_gather > 0)
+    KnownIndirect known{.remarks = solution.report().remarks};
+    if (last_gather > 0) {
+        LampLight const lamps(scene, plan, solution.tracer(), solution.wavelengths_nm());
         known.field = solution.indirect_field(seen_by_camera(scene, plan), lamps, {last_gather, settings.memory_bytes},
                                               known.remarks);
+    } else {
+        known.field = solution.indirect_field();
+    }
     return path_until_known(scene, plan, std::move(known));
 }
 
