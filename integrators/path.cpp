@@ -239,10 +239,15 @@ class Path final : public Integrator {
         return light_sampling_ ? selector_.probability(arrival.from, light) : 0;
     }
 
+    // The normal on the side that the path comes from.
+    static Direction side_of(Walk const& walk, Direction const& to_viewer) {
+        Direction const& n = walk.hit.point.geometric_normal;
+        return to_viewer.dot(n) < 0 ? Direction(-n) : n;
+    }
+
     LightReceiver receiver_of(Scene const& scene, Direction const& to_viewer, Walk const& walk) const {
         if (!selector_.looks_at_receiver() || walk.is_afloat()) return {walk.place(), Vector(0, 0, 0)};
-        Direction const& n = walk.hit.point.geometric_normal;
-        return receiver(scene, walk.hit, to_viewer.dot(n) < 0 ? Direction(-n) : n);
+        return receiver(scene, walk.hit, side_of(walk, to_viewer));
     }
 
     // What is emitted where the ray ends, and the surface there; false if the path ends with it.
@@ -348,7 +353,7 @@ class Path final : public Integrator {
                 VertexNumbers const& numbers = walks[i].numbers;
                 LightRequest& request = between.requests[count];
                 request.from = walks[i].place();
-                request.normal = side_of(walks[i], paths[i]);
+                request.normal = side_of(walks[i], -paths[i].ray.direction);
                 request.u = std::array{numbers.light, numbers.direction, numbers.choices}[lamp];
                 request.wavelengths = &paths[i].wavelengths;
                 between.asking[count++] = {i, {static_cast<int>(lamp), 1}};
@@ -356,7 +361,7 @@ class Path final : public Integrator {
             auto const requests = std::span(between.requests).first(count);
             scene.lights.light(static_cast<int>(lamp)).answer(requests);
             for (std::size_t k = 0; k < count; ++k) {
-                requests[k].normal.setZero();
+                requests[k].normal.setZero();  // for those who ask next, whose densities others know too
                 if (!requests[k].sample) continue;
                 Walk& walk = walks[between.asking[k].walk];
                 CameraPath& path = paths[between.asking[k].walk];
@@ -366,12 +371,6 @@ class Path final : public Integrator {
             }
             add_direct_light(scene, between.shadows, statistics);
         }
-    }
-
-    // The normal on the side that the path comes from.
-    static Direction side_of(Walk const& walk, CameraPath const& path) {
-        Direction const& n = walk.hit.point.geometric_normal;
-        return path.ray.direction.dot(n) > 0 ? Direction(-n) : n;
     }
 
     static Interaction meeting(Scene const& scene, CameraPath const& path, Walk& walk) {
