@@ -78,23 +78,25 @@ void check_furnace(Method const& m, double rho, std::optional<int> bounces = {})
 }
 
 // Of a map many points are looked at: what they tell of it is then what all its photons tell.
-std::vector<Method> const methods{{"path", endless, false, true, false, Cost::seconds, 256},
-                                  {"reference_path", endless, false, true, false, Cost::minutes, 256},
-                                  {"auto", endless, false, true, false, Cost::seconds, 256},
-                                  {"light-tracing", endless, false, true, false, Cost::minutes, 4096},
-                                  {"bidirectional"},
-                                  {"bidirectional-power"},
-                                  {"bidirectional", endless, false, true, true},
-                                  {"caustic-path", endless, false, true, true, Cost::seconds, 256},
-                                  {"direct", 1},
-                                  {"recursive", 1},
-                                  {"radiosity", endless, false, false},
-                                  {"radiosity:direct_light=lamps,last_gather=64,patches=100", endless, false, false},
-                                  {"directional-radiosity:patches=60", endless, false, false},
-                                  {"two-pass:patches=100"},
-                                  {"photon-map:photons=100000", endless, true, true, false, Cost::minutes, 1024},
-                                  {"progressive-photon:photons=20000", endless, true, true, false, Cost::minutes, 64},
-                                  {"final-gather:photons=100000", endless, true, true, false, Cost::minutes, 16}};
+std::vector<Method> const methods{
+    {"path", endless, false, true, false, Cost::seconds, 256},
+    {"reference_path", endless, false, true, false, Cost::minutes, 256},
+    {"auto", endless, false, true, false, Cost::seconds, 256},
+    {"light-tracing", endless, false, true, false, Cost::minutes, 4096},
+    {"bidirectional"},
+    {"bidirectional-power"},
+    {"bidirectional", endless, false, true, true},
+    {"caustic-path", endless, false, true, true, Cost::seconds, 256},
+    {"direct", 1},
+    {"recursive", 1},
+    {"radiosity", endless, false, false},
+    {"radiosity:direct_light=lamps,last_gather=64,patches=100", endless, false, false},
+    {"directional-radiosity:patches=60", endless, false, false},
+    {"two-pass:patches=100"},
+    {"photon-map:photons=100000", endless, true, true, false, Cost::minutes, 1024},
+    {"progressive-photon:photons=20000", endless, true, true, false, Cost::minutes, 64},
+    {"final-gather:photons=100000", endless, true, true, false, Cost::minutes, 16},
+};
 
 }  // namespace
 

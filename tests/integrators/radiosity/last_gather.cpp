@@ -2,7 +2,7 @@
 // A last gather: what patches show wrongly because their values are means over them.
 #include <catch2/catch.hpp>
 
-#include "film/compare.h"
+#include "bench/measure/reference.h"
 #include "support/agreement.h"
 
 using namespace iride;
@@ -20,16 +20,6 @@ std::unique_ptr<Scene> parted_room() {
          "emission":{"radiance":3}}]})");
 }
 
-double relmse(Film const& a, Film const& b) {
-    double sum = 0;
-    for (int y = 0; y < a.height(); ++y)
-        for (int x = 0; x < a.width(); ++x) {
-            double const p = a.mean(x, y).Y, q = b.mean(x, y).Y;
-            sum += (p - q) * (p - q) / (q * q + relmse_floor);
-        }
-    return sum / (a.width() * a.height());
-}
-
 }  // namespace
 
 // Fails (a third of the error without) where near patches are asked for their means, light of the left side among it.
@@ -40,7 +30,8 @@ TEST_CASE("a last gather is nearer to path tracing than the patches that it asks
                patches = test::rendered(*scene, "radiosity:direct_light=lamps,patches=200", {.spp = 256}),
                gathered =
                    test::rendered(*scene, "radiosity:direct_light=lamps,patches=200,last_gather=1024", {.spp = 256});
-    double const without = relmse(patches, path), with = relmse(gathered, path);
+    double const without = compare(bench::picture_of(patches), bench::picture_of(path)).relmse,
+                 with = compare(bench::picture_of(gathered), bench::picture_of(path)).relmse;
     INFO("relMSE " << without << " without, " << with << " with");
     CHECK(with < without / 4);
     auto const a = test::picture_mean(gathered), b = test::picture_mean(path);
