@@ -249,7 +249,11 @@ int run_render(Options const& o) {
     output_space(o.colourspace, scene->film.white);  // to refuse an unknown one before any work
     std::optional<ColourTransform> display;
     if (!out.preview.empty()) display = ColourConfig(o.ocio).to_display("", o.view);
-    RenderPlan const plan = make_plan_without(o.plan_disabled, *scene);
+    if (o.aov) scene->film.aovs = parse_layers(*o.aov);
+    RenderPlan plan = make_plan_without(o.plan_disabled, *scene);
+    if (o.adaptive || !o.crop.empty())
+        plan.no_light_paths =
+            o.crop.empty() ? "pixels have numbers of samples of their own" : "a crop has no light paths of its own";
     IntegratorChoice const choice = o.integrator.empty() ? scene->render.integrator : parse_integrator(o.integrator);
     std::string const& name = choice.name;
     if (!o.solution.empty() && name != "radiosity")
@@ -257,8 +261,7 @@ int run_render(Options const& o) {
     auto const integrator = o.solution.empty() ? make_integrator(choice, *scene, plan)
                                                : radiosity::show(radiosity::load_solution(o.solution, *scene));
     check_goes_with(*integrator, name, o);
-    std::vector<std::string> const layers =
-        check_layers(o.aov ? parse_layers(*o.aov) : scene->film.aovs, *scene, plan, name, o.adaptive);
+    std::vector<std::string> const layers = check_layers(scene->film.aovs, *scene, plan, name, o.adaptive);
     if (!o.quiet)
         for (auto const& remarks : {scene->remarks, integrator->remarks()})
             for (std::string const& remark : remarks) fmt::print(stderr, "note: {}\n", remark);

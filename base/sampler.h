@@ -62,6 +62,10 @@ class Sampler {
         std::memcpy(&decisions, &pairs, sizeof pairs);
     }
 
+    // For part `part` of `count` that this path is split into: of all parts of all samples, the numbers are as even as
+    // those of that many samples.
+    void split(std::uint32_t part, std::uint32_t count) { sample_ = sample_ * count + part; }
+
   private:
     using Numbers = float __attribute__((vector_size(sizeof(SobolWords))));
 

@@ -28,6 +28,13 @@ inline Real8 square_root(Real8 x) {
     return x;
 }
 
+// Whether a comparison holds in one of the eight.
+inline bool holds_somewhere(Int8 condition) {
+    using Long4 = std::int64_t __attribute__((vector_size(sizeof(Int8))));
+    auto const pairs = reinterpret_cast<Long4>(condition);
+    return (pairs[0] | pairs[1] | pairs[2] | pairs[3]) != 0;
+}
+
 // Where `condition` holds a, else b, lane by lane.
 template <class Condition, class Real>
 Real select(Condition condition, Real a, Real b) {

@@ -8,8 +8,7 @@ namespace iride {
 
 namespace {
 
-constexpr float usual_share = 0.25f;  // of aimed light paths, for each camera path
-constexpr int roulette_from = 2;      // scatterings before camera paths may end by chance
+constexpr int roulette_from = 2;  // scatterings before camera paths may end by chance
 
 // What arrives if nothing stands between: contributions of one camera path, their rays traced together.
 class Shadowed {
@@ -32,14 +31,11 @@ class Shadowed {
     std::vector<ShadowQuery> queries_;
 };
 
-template <class Heuristic, class Emission>
+template <class Heuristic>
 class Bidirectional final : public Integrator {
   public:
-    Bidirectional(Scene const& scene, RenderPlan const& plan, Emission emission = {}, float share_of_light_paths = 1)
-        : context_(scene, plan, share_of_light_paths),
-          emission_(std::move(emission)),
-          media_(plan.media),
-          camera_in_(plan.camera_in) {}
+    Bidirectional(Scene const& scene, RenderPlan const& plan)
+        : context_(scene, plan), media_(plan.media), camera_in_(plan.camera_in) {}
 
     void follow(Scene const& scene, std::span<CameraPath> paths, RayStatistics& statistics) const override {
         Work work;
@@ -50,7 +46,7 @@ class Bidirectional final : public Integrator {
                 scene, context_, emission_, path, statistics, [](LightStart const&, Sample2) {},
                 [&](LightVertex<Heuristic> const& here, Flux const& flux, Sample2 lens) {
                     work.flux = flux;
-                    if constexpr (Heuristic::joins) work.vertices.push_back(here);
+                    work.vertices.push_back(here);
                     auto const sent = send_to_camera(scene, context_, path.wavelengths, here, flux, lens, true);
                     if (sent && !scene.accelerator->occluded(sent->shadow_ray, statistics))
                         path.splats.push_back(sent->splat);
@@ -166,10 +162,10 @@ class Bidirectional final : public Integrator {
                               -sample->wi, sample->cosine);
         if (light.extent() == LightExtent::point) p_back /= square(sample->distance);
         Lanes techniques = Heuristic::of(walk.state.reach);
-        if (p_back > 0) {
-            Scattering const reversed = here.scattering(scene, path.wavelengths, sample->wi, here.back());
-            techniques += walk.others(Lanes(p_back), Lanes(reversed.density.lane));
-        }
+        if (p_back > 0)
+            techniques += walk.others(Lanes(p_back), [&] {
+                return Lanes(here.scattering(scene, path.wavelengths, sample->wi, here.back()).density.lane);
+            });
         if (sample->density) techniques += Heuristic::of(walk.state.reach * Lanes(s.density.lane) / chosen);
         float const scale = s.cosine / (chosen * float(mean(techniques)));
         Throughput const let_through = here.let_through(scene, path.wavelengths, sample->wi, sample->distance);
@@ -195,9 +191,9 @@ class Bidirectional final : public Integrator {
         Lanes const p_there = Lanes(f.density.lane) * (there.cosine(towards) / distance2),
                     p_here = Lanes(g_on.density.lane) * (here.cosine(towards) / distance2);
         Lanes const here_reach = Heuristic::of(walk.state.reach), there_reach = Heuristic::of(vertex.path.state.reach);
-        Lanes const techniques = here_reach * there_reach +
-                                 here_reach * vertex.path.others(p_there, Lanes(g.density.lane)) +
-                                 there_reach * walk.others(p_here, Lanes(f_back.density.lane));
+        Lanes const techniques = here_reach * there_reach + here_reach * vertex.path.others(p_there, [&] {
+            return Lanes(g.density.lane);
+        }) + there_reach * walk.others(p_here, [&] { return Lanes(f_back.density.lane); });
         float const scale =
             f.cosine * there.adjoint_cosine(g.cosine, there.back(), towards) / (distance2 * float(mean(techniques)));
         Radiance const joined(work.flux.lane * vertex.path.state.weight.lane * g.value.lane * f.value.lane * scale);
@@ -212,10 +208,8 @@ class Bidirectional final : public Integrator {
         Direction const on = seen.frame.to_world(sample->wi);
         if (!seen.is_consistent(on, sample->wi)) return false;
         if (sample->density) {
-            Lanes const p_before = is_black(walk.far)
-                                       ? Lanes()
-                                       : Lanes(here.scattering(scene, path.wavelengths, on, here.back()).density.lane);
-            walk.go_on(here, *sample, on, p_before);
+            walk.go_on(here, *sample, on,
+                       [&] { return Lanes(here.scattering(scene, path.wavelengths, on, here.back()).density.lane); });
         } else {
             walk.go_on_through_dirac(here, *sample, here.squared_index_ratio(scene, path.wavelengths, on));
             if (!here.is_framed_alike(scene, path.wavelengths, on)) walk.far = Lanes();  // no light path comes this way
@@ -226,7 +220,7 @@ class Bidirectional final : public Integrator {
     }
 
     TwoWayContext context_;
-    Emission emission_;
+    LampEmission emission_;
     bool media_;
     std::optional<Surroundings> camera_in_;  // absent: to be found for each path
 };
@@ -235,25 +229,10 @@ class Bidirectional final : public Integrator {
 
 std::unique_ptr<Integrator> make_bidirectional(Scene const& scene, RenderPlan const& plan, IntegratorOptions&) {
     check_light_paths_possible(scene, plan, "bidirectional");
-    return std::make_unique<Bidirectional<BalanceHeuristic, LampEmission>>(scene, plan);
+    return std::make_unique<Bidirectional<BalanceHeuristic>>(scene, plan);
 }
 std::unique_ptr<Integrator> make_bidirectional_power(Scene const& scene, RenderPlan const& plan, IntegratorOptions&) {
     check_light_paths_possible(scene, plan, "bidirectional-power");
-    return std::make_unique<Bidirectional<PowerHeuristic, LampEmission>>(scene, plan);
+    return std::make_unique<Bidirectional<PowerHeuristic>>(scene, plan);
 }
-std::unique_ptr<Integrator> make_caustic_path(Scene const& scene, RenderPlan const& plan, IntegratorOptions& options) {
-    constexpr char const* name = "caustic-path";
-    check_light_paths_possible(scene, plan, name);
-    AimedEmission aimed(scene);
-    if (!aimed.has_targets())
-        throw InputError({}, "integrator",
-                         fmt::format("'{}' cannot render this scene: no lamp of a place shines at a mirror or a glass; "
-                                     "'path' can",
-                                     name));
-    auto const share =
-        static_cast<float>(options.number("light_paths", {.least = 0, .most = 1, .least_excluded = true}, usual_share));
-    return std::make_unique<Bidirectional<WithoutJoins<BalanceHeuristic>, AimedEmission>>(scene, plan, std::move(aimed),
-                                                                                          share);
-}
-
 }  // namespace iride

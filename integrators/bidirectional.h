@@ -13,8 +13,5 @@ namespace iride {
 std::unique_ptr<Integrator> make_bidirectional(Scene const& scene, RenderPlan const& plan, IntegratorOptions& options);
 std::unique_ptr<Integrator> make_bidirectional_power(Scene const& scene, RenderPlan const& plan,
                                                      IntegratorOptions& options);
-// s = 0 and s = 1 alone, and t = 1 of light paths aimed at mirrors and glass (integrators/light_emission_choice.h).
-// Option `light_paths`: their number for each camera path.
-std::unique_ptr<Integrator> make_caustic_path(Scene const& scene, RenderPlan const& plan, IntegratorOptions& options);
 
 }  // namespace iride

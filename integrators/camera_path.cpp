@@ -30,9 +30,10 @@ void PathStarter::start(int x, int y, std::uint32_t sample, CameraPath& path) co
                       morton_number(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)), sample);
     Sample2 const place = place_in_pixel(path.sampler.next2());
     path.wavelengths = wavelengths_.sample(path.sampler.next());
-    path.ray = camera_.ray(static_cast<float>(x) + 0.5f + place.x, static_cast<float>(y) + 0.5f + place.y,
-                           path.sampler.next2());
+    path.x = static_cast<float>(x) + 0.5f + place.x, path.y = static_cast<float>(y) + 0.5f + place.y;
+    path.ray = camera_.ray(path.x, path.y, path.sampler.next2());
     path.cone = cone_;
+    path.part = 1;
     path.radiance = Radiance();
     path.complete = true;
     path.splats.clear();

@@ -23,19 +23,21 @@ struct LightShares {
 };
 
 struct CameraPath {
+    float x, y;  // place in the picture, in pixels
     Ray ray;
     RayCone cone;
     Wavelengths wavelengths;
     Sampler sampler{SamplerKind::independent, 0, 0, 0};
     Radiance radiance;
+    float part = 1;        // of its sample that it is
     bool complete = true;  // false: given up (longest_path), the sample must be dropped and counted
     LightShares shares;
     std::vector<Splat> splats;  // of the light path that goes with this one, Integrator::splats()
 
     // Add what one of the scene's lights brings along the path.
     void bring(int light, Radiance const& found) {
-        radiance += found;
-        if (shares.of_group) shares.of_group[shares.group_of_light[light]] += found;
+        radiance += found * part;
+        if (shares.of_group) shares.of_group[shares.group_of_light[light]] += found * part;
     }
 };
 

@@ -8,10 +8,13 @@
 
 #include "integrators/light_emission_choice.h"
 #include "integrators/light_tracing.h"
+#include "integrators/path.h"
 
 namespace iride {
 
 namespace {
+
+constexpr int usual_splits = 8;
 
 bool is_one_of(std::string const& type, std::span<char const* const> types) {
     return std::ranges::any_of(types, [&](char const* t) { return type == t; });
@@ -25,6 +28,7 @@ bool receives_caustics(NamedMaterial const& m) {
 }  // namespace
 
 AutomaticChoice choose_integrator(Scene const& scene, RenderPlan const& plan) {
+    if (!plan.no_light_paths.empty()) return {"path", plan.no_light_paths};
     std::string const hindrance = why_no_light_paths(scene, plan);
     if (!hindrance.empty()) return {"path", hindrance};
     std::string const from = names_of(scene, throws_caustics), onto = names_of(scene, receives_caustics);
@@ -35,8 +39,9 @@ AutomaticChoice choose_integrator(Scene const& scene, RenderPlan const& plan) {
 }
 
 std::unique_ptr<Integrator> make_auto(Scene const& scene, RenderPlan const& plan, IntegratorOptions& options) {
-    std::string const name = choose_integrator(scene, plan).name;
-    return std::ranges::find(integrator_entries(), name, &IntegratorEntry::name)->make(scene, plan, options);
+    int const splits = plan.whole_paths ? 1 : usual_splits;
+    bool const caustics = choose_integrator(scene, plan).name == "caustic-path";
+    return (caustics ? caustic_path_in_parts : path_in_parts)(scene, plan, options, splits);
 }
 
 }  // namespace iride

@@ -21,18 +21,20 @@ namespace iride {
 namespace {
 
 constexpr std::array<IntegratorEntry, 16> table{{
-    {"path", "path tracing: light sampling and scattering, unbiased", make_path, MediaKnown::scattering},
+    {"path", "path tracing: light sampling and scattering, unbiased; splits=", make_path, MediaKnown::scattering},
     {"reference_path", "path tracing by scattering alone: slow, the oracle of the others", make_reference_path,
      MediaKnown::scattering},
-    {"auto", "path or caustic-path, whichever suits the scene (`iride plan` says why)", make_auto,
-     MediaKnown::scattering},
+    {"auto",
+     "the default: path or caustic-path, whichever suits the scene, split where it is noisy (`iride plan` says why)",
+     make_auto, MediaKnown::scattering},
     {"light-tracing", "paths from the lights, shown to the camera: caustics, but no mirror images", make_light_tracing,
      MediaKnown::between_bodies},
     {"bidirectional", "paths from camera and light, joined in every way: unbiased, caustics and mirror images",
      make_bidirectional, MediaKnown::between_bodies},
     {"bidirectional-power", "the same, weighed by the power heuristic", make_bidirectional_power,
      MediaKnown::between_bodies},
-    {"caustic-path", "path tracing, and light paths aimed at mirrors and glass: unbiased, caustics; light_paths=",
+    {"caustic-path",
+     "path tracing, and light paths aimed at mirrors and glass: unbiased, caustics; light_paths=, splits=",
      make_caustic_path, MediaKnown::between_bodies},
     {"direct",
      "lamps and what they light without a stop; strategy= hemisphere, cosine, bsdf, area, solid-angle, mis; "

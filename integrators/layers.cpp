@@ -218,17 +218,13 @@ void append_groups(ExtraLayers& layers, Scene const& scene, RenderPlan const& pl
                space.rgb != nullptr);
 }
 
-// Layers that are made of the picture's paths, from integrators that say what light a path found after how many
-// scatterings.
-bool needs_paths(std::string const& name) { return name == "direct" || name == "indirect" || name == "groups"; }
-
 // What hinders a layer; empty if nothing does.
 std::string obstacle(std::string const& name, Scene const& scene, std::string const& integrator, bool adaptive) {
     std::vector<std::string> known;
     for (LayerEntry const& e : table) known.emplace_back(e.name);
     if (std::ranges::find(known, name) == known.end())
         return fmt::format("unknown layer '{}'{}", name, suggestion(name, known));
-    if (!needs_paths(name)) return {};
+    if (!is_made_of_paths(name)) return {};
     if (integrator != "path" && integrator != "reference_path")
         return fmt::format("the integrator '{}' cannot give the layer '{}'; allowed: path, reference_path", integrator,
                            name);
@@ -241,6 +237,10 @@ std::string obstacle(std::string const& name, Scene const& scene, std::string co
 }  // namespace
 
 std::span<LayerEntry const> layer_entries() { return table; }
+
+bool is_made_of_paths(std::string const& layer) {
+    return layer == "direct" || layer == "indirect" || layer == "groups";
+}
 
 std::vector<LayerRequest> parse_layers(std::string const& text) {
     std::vector<LayerRequest> requests;
@@ -271,7 +271,7 @@ ExtraLayers make_layers(std::vector<std::string> const& names, Scene const& scen
                         ExrSettings const& settings) {
     ExtraLayers layers;
     bool const first_hits = std::ranges::any_of(
-        names, [](std::string const& n) { return !needs_paths(n) && n != "count" && n != "variance"; });
+        names, [](std::string const& n) { return !is_made_of_paths(n) && n != "count" && n != "variance"; });
     if (first_hits) append_first_hits(layers, names, FirstHits(scene, plan, render, film), settings);
     if (has(names, "direct") || has(names, "indirect"))
         append_direct(layers, names, scene, plan, integrator, render, film, settings);

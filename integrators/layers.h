@@ -22,6 +22,10 @@ struct LayerEntry {
 };
 std::span<LayerEntry const> layer_entries();
 
+// Whether a layer is made of the picture's paths, by integrators that say what light a path found after how many
+// scatterings.
+bool is_made_of_paths(std::string const& layer);
+
 // Names separated by commas, as on the command line.
 std::vector<LayerRequest> parse_layers(std::string const& text);
 // The names of what was asked for. Throws InputError with all that is wrong: unknown names, and what this integrator

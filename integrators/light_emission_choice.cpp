@@ -134,6 +134,7 @@ float AimedEmission::direction_density(int light, Vector const& from, Direction 
         Real8 const along = x * travel.x() + y * travel.y() + z * travel.z(), distance2 = x * x + y * y + z * z,
                     beyond2 = distance2 - e.radius2;
         auto const met = (beyond2 <= 0) | ((along > 0) & (along * along >= beyond2));
+        if (!holds_somewhere(met)) continue;
         for (int i = 0; i < real_lanes; ++i) {
             int const t = static_cast<int>(first) * real_lanes + i;
             if (met[i] && t < choice.size())

@@ -7,6 +7,7 @@
 #include "integrators/light_emission_choice.h"
 #include "integrators/light_surroundings.h"
 #include "integrators/media.h"
+#include "integrators/splits.h"
 #include "integrators/subpath.h"
 #include "scene/camera_importance.h"
 
@@ -17,17 +18,26 @@ struct TwoWayContext {
     CameraImportance camera;
     Ball ball;
     LightSurroundings lamps_in;
-    float share;        // of the camera paths that a light path goes with
-    float light_paths;  // for each camera path of a pixel: their share of the number of pixels
+    LightSelector selector;  // of the camera paths
+    float share;             // of the camera paths that a light path goes with
+    float light_paths;       // for each camera path of a pixel: their share of the number of pixels
     int max_bounces;
 
-    TwoWayContext(Scene const& scene, RenderPlan const& plan, float share_of_paths = 1)
+    TwoWayContext(Scene const& scene, RenderPlan const& plan, LightSelection selection = LightSelection::power,
+                  float share_of_paths = 1)
         : camera(scene.camera, scene.film.width, scene.film.height),
           ball{scene.centre(), scene.radius()},
           lamps_in(scene, plan),
+          selector(scene.lights, selection),
           share(share_of_paths),
           light_paths(share * static_cast<float>(scene.film.width) * static_cast<float>(scene.film.height)),
           max_bounces(plan.max_bounces.value_or(longest_path)) {}
+
+    // With which a camera path that meets `hit` from the side of `wi` asks a light.
+    float chosen(Scene const& scene, Hit const& hit, Direction const& wi, int light) const {
+        Direction const& n = hit.point.geometric_normal;
+        return selector.probability(receiver(scene, hit, wi.dot(n) < 0 ? Direction(-n) : n), light);
+    }
 };
 
 template <class Heuristic>
@@ -110,7 +120,7 @@ void walk_from_light(Scene const& scene, TwoWayContext const& context, Emission 
         float const arriving = std::abs(back.dot(hit.point.geometric_normal));
         if (!(arriving > 0)) return;
         if (number == 1)
-            begin(light, *start, hit, arriving, joined ? scene.lights.probability(start->light) : 0, walk);
+            begin(light, *start, hit, arriving, joined ? context.chosen(scene, hit, back, start->light) : 0, walk);
         else
             walk.arrive(way.length, arriving);
         sampler.begin_vertex(light_block + static_cast<std::uint32_t>(number));
@@ -169,7 +179,7 @@ bool scatter_light(Scene const& scene, Wavelengths const& wavelengths, Meeting c
         Scattering const s = here.scattering(scene, wavelengths, on, here.back());
         float const scale = here.adjoint_cosine(s.cosine, here.back(), on) / sample->density->value;
         walk.state.weight *= Throughput(s.value.lane * scale);
-        walk.go_on(here, *sample, on, Lanes(s.density.lane));
+        walk.go_on(here, *sample, on, [&] { return Lanes(s.density.lane); });
     } else {
         if (!seen.is_consistent(on, sample->wi) || !here.is_framed_alike(scene, wavelengths, on)) return false;
         Lanes const ratio = here.squared_index_ratio(scene, wavelengths, on);
@@ -185,16 +195,17 @@ bool scatter_light(Scene const& scene, Wavelengths const& wavelengths, Meeting c
 template <class Heuristic>
 std::optional<SentToCamera> send_to_camera(Scene const& scene, TwoWayContext const& context,
                                            Wavelengths const& wavelengths, LightVertex<Heuristic> const& here,
-                                           Flux const& flux, Sample2 lens, bool weighed) {
+                                           Flux const& flux, Sample2 lens, bool weighed, Splits const& splits = {}) {
     Meeting const& at = here.meeting;
     auto const sight = context.camera.sight_of(at.point().position, lens);
     if (!sight) return std::nullopt;
     Direction const& viewer = sight->towards;
     Scattering const s = at.scattering(scene, wavelengths, viewer, at.back());
     if (is_black(s.value)) return std::nullopt;
-    float const density = sight->density / context.light_paths;
+    float const density = sight->density * static_cast<float>(splits.at(sight->x, sight->y)) / context.light_paths;
     Lanes techniques = Heuristic::of(here.path.state.reach);
-    if (weighed) techniques += here.path.others(Lanes(density * at.cosine(viewer)), Lanes(s.density.lane));
+    if (weighed)
+        techniques += here.path.others(Lanes(density * at.cosine(viewer)), [&] { return Lanes(s.density.lane); });
     float const scale = at.adjoint_cosine(s.cosine, at.back(), viewer) * sight->density / float(mean(techniques));
     Throughput const arriving = here.path.state.weight * at.let_through(scene, wavelengths, viewer, sight->distance);
     return send(at.point(), *sight, Radiance(flux.lane * arriving.lane * s.value.lane * scale));

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <array>
 
-#include "integrators/arrival.h"
-#include "integrators/flight.h"
+#include "integrators/path_walk.h"
 #include "integrators/radiosity/field.h"
+#include "integrators/splits.h"
 
 namespace iride {
 
@@ -14,108 +14,19 @@ namespace {
 
 constexpr int roulette_from = 2;       // scatterings before paths may end by chance
 constexpr std::size_t most_lamps = 3;  // that are asked all at once
-
-// The numbers of the paths of a batch that are still under way.
-class Alive {
-  public:
-    explicit Alive(std::size_t count) : count_(static_cast<int>(count)) {
-        for (int i = 0; i < count_; ++i) index_[static_cast<std::size_t>(i)] = i;
-    }
-    bool none() const { return count_ == 0; }
-
-    // Do `stage` for each; those for which it returns false have ended.
-    template <class Stage>
-    void keep_if(Stage&& stage) {
-        int kept = 0;
-        for (int k = 0; k < count_; ++k) {
-            int const i = index_[static_cast<std::size_t>(k)];
-            index_[static_cast<std::size_t>(kept)] = i;
-            kept += stage(static_cast<std::size_t>(i)) ? 1 : 0;
-        }
-        count_ = kept;
-    }
-    template <class Stage>
-    void for_each(Stage&& stage) const {
-        for (int k = 0; k < count_; ++k) stage(static_cast<std::size_t>(index_[static_cast<std::size_t>(k)]));
-    }
-
-  private:
-    std::array<int, batch_size> index_;
-    int count_;
-};
-
-// The decisions at a vertex: a block of the sampler.
-struct VertexNumbers {
-    Sample2 choices;  // x: which light, y: which lobe
-    Sample2 light, direction;
-    Sample2 chances;  // x: roulette, y: which part of a mixture
-};
-
-// What the lamps bring to a batch if nothing stands between, and the rays that tell.
-struct Shadows {
-    std::array<ShadowQuery, batch_size> query;
-    std::array<Radiance, batch_size> radiance;
-    std::array<CameraPath*, batch_size> path;
-    std::array<int, batch_size> light;
-    std::size_t count = 0;
-
-    void add(CameraPath& to, int from, Radiance const& unshadowed, Ray const& ray) {
-        query[count].ray = ray;
-        radiance[count] = unshadowed;
-        light[count] = from;
-        path[count++] = &to;
-    }
-};
-
-// A lamp that is asked for a sample.
-struct Asking {
-    std::size_t walk;
-    LightSelector::Choice choice;
-};
-
-// What the stages leave to one another; made once for a batch.
-struct Exchange {
-    std::array<ClosestQuery, batch_size> queries;
-    std::array<Asking, batch_size> asking;
-    std::array<LightRequest, batch_size> requests;
-    Shadows shadows;
-};
-
-struct NotCarried {};
-
-// A path under way, at its latest vertex: on a surface, or afloat in a medium that scatters.
-template <bool Media, bool Scattering>
-struct Walk {
-    PathState state;
-    Arrival arrival;
-    RayCone cone;  // 0 wide unless the plan carries it
-    VertexNumbers numbers;
-    bool has_hit;
-    bool light_is_known = false;  // of the next surface, but for what it emits
-    Hit hit;
-    LightSample const* light;      // that of the lamp asked; null: none
-    LightSelector::Choice choice;  // of that lamp
-    [[no_unique_address]] std::conditional_t<Media, Surroundings, NotCarried> in;
-    [[no_unique_address]] std::conditional_t<Scattering, std::optional<Afloat>, NotCarried> afloat;
-
-    bool is_afloat() const {
-        if constexpr (Scattering) return afloat.has_value();
-        return false;
-    }
-    Vector place() const {
-        if constexpr (Scattering)
-            if (afloat) return afloat->position;
-        return hit.point.position;
-    }
-};
+constexpr int most_splits = 64;
 
 // The paths of a batch go on together, stage by stage: within a stage they are independent of one another, and the
 // processor works on several of their long chains of dependent arithmetic at a time.
-template <bool Dispersive, bool Media, bool Scattering = false>
+// Lit: light paths aimed at mirrors and glass go with them.
+template <bool Dispersive, bool Media, bool Scattering = false, bool Lit = false>
 class Path final : public Integrator {
+    using LightPaths = std::conditional_t<Lit, AimedLightPaths, NotCarried>;
+
   public:
-    Path(Scene const& scene, RenderPlan const& plan, KnownIndirect known)
-        : known_(std::move(known)),
+    Path(Scene const& scene, RenderPlan const& plan, KnownIndirect known, LightPaths light_paths = {})
+        : light_paths_(std::move(light_paths)),
+          known_(std::move(known)),
           selector_(scene.lights, plan.light_selection),
           max_bounces_(plan.max_bounces.value_or(longest_path)),
           light_sampling_(plan.light_sampling),
@@ -124,8 +35,31 @@ class Path final : public Integrator {
           ray_cones_(plan.ray_cones) {}
 
     std::vector<std::string> remarks() const override { return known_.remarks; }
+    bool splats() const override { return Lit; }
+    void split(Scene const& scene, RenderPlan const& plan, int most) {
+        splits_ = learn_splits(scene, plan, most, [&](std::span<CameraPath> paths, RayStatistics& statistics) {
+            follow_from_camera(scene, paths, statistics);
+        });
+    }
 
     void follow(Scene const& scene, std::span<CameraPath> paths, RayStatistics& statistics) const override {
+        follow_from_camera(scene, paths, statistics);
+        if constexpr (Lit)
+            for (CameraPath& path : paths) light_paths_.follow(scene, path, splits_, statistics);
+    }
+
+  private:
+    static_assert(!Scattering || (Dispersive && Media), "flights leave each lane its own reach");
+    static_assert(!Scattering || !Lit, "light paths know no medium that scatters");
+    using Walk = iride::Walk<Media, Scattering, Lit>;
+    using Met = std::conditional_t<Lit, Meeting, Interaction>;
+    using Walks = std::array<Walk, batch_size>;
+
+    // Neighbours leave the camera together; after a scattering each goes its own way.
+    static Accelerator::Coherence coherence(int bounce) {
+        return bounce == 0 ? Accelerator::Coherence::close : Accelerator::Coherence::none;
+    }
+    void follow_from_camera(Scene const& scene, std::span<CameraPath> paths, RayStatistics& statistics) const {
         Walks walks;
         Exchange between;
         Alive alive(paths.size());
@@ -134,14 +68,29 @@ class Path final : public Integrator {
                 walks[i].in = camera_in_ ? *camera_in_ : surroundings_at(scene, paths[i].ray.origin);
         if (ray_cones_)
             for (std::size_t i = 0; i < paths.size(); ++i) walks[i].cone = paths[i].cone;
-        for (int bounce = 0; !alive.none(); ++bounce) {
-            alive.for_each([&](std::size_t i) {
-                paths[i].sampler.begin_vertex(static_cast<std::uint32_t>(bounce), walks[i].numbers);
-            });
-            find_hits(scene, paths, walks, alive, bounce, between.queries, statistics);
-            if constexpr (Media)
-                alive.keep_if([&](std::size_t i) { return travel_on(scene, paths[i], walks[i], statistics); });
-            alive.keep_if([&](std::size_t i) { return arrive(scene, paths[i], walks[i], bounce); });
+        reach_vertex(scene, paths, walks, alive, 0, between, statistics);
+        if (splits_.none())
+            go_on(scene, paths, walks, alive, between, statistics);
+        else
+            go_on_in_parts(scene, paths, walks, alive, between, statistics);
+    }
+
+    // The ends of the paths' rays: those that remain alive are at vertex `bounce`.
+    void reach_vertex(Scene const& scene, std::span<CameraPath> paths, Walks& walks, Alive& alive, int bounce,
+                      Exchange& between, RayStatistics& statistics) const {
+        alive.for_each([&](std::size_t i) {
+            paths[i].sampler.begin_vertex(static_cast<std::uint32_t>(bounce), walks[i].numbers);
+        });
+        find_hits(scene, paths, walks, alive, bounce, between.queries, statistics);
+        if constexpr (Media)
+            alive.keep_if([&](std::size_t i) { return travel_on(scene, paths[i], walks[i], statistics); });
+        alive.keep_if([&](std::size_t i) { return arrive(scene, paths[i], walks[i], bounce); });
+    }
+
+    // From the first vertex to the end.
+    void go_on(Scene const& scene, std::span<CameraPath> paths, Walks& walks, Alive& alive, Exchange& between,
+               RayStatistics& statistics) const {
+        for (int bounce = 0; !alive.none();) {
             if (known_.field) {
                 bring_known(scene, paths, walks, alive, bounce, statistics);
                 if (light_sampling_ && scene.lights.size() <= most_lamps) {
@@ -154,27 +103,28 @@ class Path final : public Integrator {
                 return scatter(scene, paths[i], walks[i], between.shadows) &&
                        (bounce < roulette_from || survives<Dispersive>(walks[i].state, walks[i].numbers.chances.x));
             });
-            if (light_sampling_) add_direct_light(scene, between.shadows, statistics);
+            if (light_sampling_) between.shadows.trace(scene, statistics);
+            reach_vertex(scene, paths, walks, alive, ++bounce, between, statistics);
         }
     }
 
-  private:
-    static_assert(!Scattering || (Dispersive && Media), "flights leave each lane its own reach");
-    using Walk = iride::Walk<Media, Scattering>;
-    using Walks = std::array<Walk, batch_size>;
-
-    // Neighbours leave the camera together; after a scattering each goes its own way.
-    static Accelerator::Coherence coherence(int bounce) {
-        return bounce == 0 ? Accelerator::Coherence::close : Accelerator::Coherence::none;
-    }
-    // Whether the surface scatters other than by Dirac lobes.
-    static bool is_dense(Scene const& scene, Walk const& walk) {
-        return scene.material(walk.hit.shape->material).traits.has_density;
-    }
-
-    // Whether the surface scatters so evenly that light samples alone find its light.
-    static bool is_diffuse(Scene const& scene, Walk const& walk) {
-        return !walk.is_afloat() && scene.material(walk.hit.shape->material).traits.diffuse;
+    // Each path from its first vertex, in parts.
+    void go_on_in_parts(Scene const& scene, std::span<CameraPath> paths, Walks const& walks, Alive const& alive,
+                        Exchange& between, RayStatistics& statistics) const {
+        Parts<Walk> parts;
+        auto const finish = [&] {
+            Alive all(parts.size());
+            go_on(scene, parts.paths(), parts.walks(), all, between, statistics);
+            parts.gather();
+        };
+        alive.for_each([&](std::size_t i) {
+            std::uint32_t const of_path = splits_.at(paths[i].x, paths[i].y);
+            for (std::uint32_t k = 0; k < of_path; ++k) {
+                parts.add(paths[i], walks[i], k, of_path);
+                if (parts.size() == batch_size) finish();
+            }
+        });
+        finish();
     }
 
     static void find_hits(Scene const& scene, std::span<CameraPath const> paths, Walks& walks, Alive const& alive,
@@ -212,19 +162,13 @@ class Path final : public Integrator {
         for (int passed = 0; travel_once(scene, path, walk, flight); ++passed) {
             if (walk.hit.shape->light >= 0) path.bring(walk.hit.shape->light, from_emitter(scene, path, walk));
             walk.arrival.density.reset();  // shadow rays end here: no light sample gets further
+            if constexpr (Lit) walk.rivalry.pass(walk.hit.distance);
             if (passed == longest_path) return path.complete = false;
             ClosestQuery query{&path.ray, &walk.hit};
             scene.accelerator->closest({&query, 1}, Accelerator::Coherence::none, statistics);
             walk.has_hit = query.found;
         }
         return true;
-    }
-
-    static void add_direct_light(Scene const& scene, Shadows& shadows, RayStatistics& statistics) {
-        scene.accelerator->occluded(std::span(shadows.query).first(shadows.count), statistics);
-        for (std::size_t k = 0; k < shadows.count; ++k)
-            if (!shadows.query[k].occluded) shadows.path[k]->bring(shadows.light[k], shadows.radiance[k]);
-        shadows.count = 0;
     }
 
     // mean(next.reach) + mean(state.reach) p_light / p_hero.
@@ -266,7 +210,17 @@ class Path final : public Integrator {
             path.complete = max_bounces_ < longest_path;
             return false;
         }
+        if constexpr (Lit) return arrive_beside_light_paths(path, walk, bounce);
         return true;
+    }
+
+    bool arrive_beside_light_paths(CameraPath const& path, Walk& walk, int bounce) const {
+        float const arriving = std::abs(path.ray.direction.dot(walk.hit.point.geometric_normal));
+        if (bounce > 0)
+            walk.rivalry.arrive(walk.rivalry.passed + walk.hit.distance, arriving);
+        else if (walk.rivalry.passed == 0)
+            walk.rivalry.near = Lanes(light_paths_.per_camera_path(path, splits_, walk.hit.distance) / arriving);
+        return arriving > 0;
     }
 
     void bring_environment(Scene const& scene, CameraPath& path, Walk const& walk) const {
@@ -288,7 +242,11 @@ class Path final : public Integrator {
         if (walk.arrival.density)
             p = choice_density(walk.arrival, hit.shape->light) *
                 light.density(walk.arrival.from.position, hit.point, hit.primitive).value;
-        return walk.state.weight * Le * (1 / mixture(walk, p));
+        float divisor = mixture(walk, p);
+        if constexpr (Lit)
+            if (!is_black(walk.rivalry.far))
+                divisor += float(mean(walk.rivalry.far)) * light_paths_.starting(scene, path.ray, hit);
+        return walk.state.weight * Le * (1 / divisor);
     }
 
     // What the patches send out, in the directions of the paths, where these scatter next.
@@ -331,11 +289,7 @@ class Path final : public Integrator {
             requests[k].u = walks[i].numbers.light;
             requests[k].wavelengths = &paths[i].wavelengths;
         }
-        for (std::size_t first = 0, last; first < count; first = last) {
-            int const light = asking[first].choice.light;
-            for (last = first + 1; last < count && asking[last].choice.light == light;) ++last;
-            scene.lights.light(light).answer(std::span(requests).subspan(first, last - first));
-        }
+        answer(scene, asking, requests);
         for (std::size_t k = 0; k < count; ++k) {
             Walk& walk = walks[asking[k].walk];
             walk.light = requests[k].sample ? &*requests[k].sample : nullptr;
@@ -369,16 +323,22 @@ class Path final : public Integrator {
                 walk.choice = between.asking[k].choice;
                 weigh<Rivals::none>(scene, meeting(scene, path, walk), path, walk, between.shadows);
             }
-            add_direct_light(scene, between.shadows, statistics);
+            between.shadows.trace(scene, statistics);
         }
     }
 
-    static Interaction meeting(Scene const& scene, CameraPath const& path, Walk& walk) {
+    static Met meeting(Scene const& scene, CameraPath const& path, Walk& walk) {
         Direction const to_viewer = -path.ray.direction;
         describe_meeting(walk.hit.point, to_viewer, walk.numbers.chances.y);
-        Surroundings* in = nullptr;
-        if constexpr (Media) in = &walk.in;
-        return Interaction(scene, walk.hit, to_viewer, path.wavelengths, in);
+        if constexpr (Lit) {
+            std::optional<Surroundings> in;
+            if constexpr (Media) in = walk.in;
+            return Meeting(scene, walk.hit, to_viewer, path.wavelengths, walk.numbers.chances.y, in);
+        } else {
+            Surroundings* in = nullptr;
+            if constexpr (Media) in = &walk.in;
+            return Interaction(scene, walk.hit, to_viewer, path.wavelengths, in);
+        }
     }
 
     // What else may find the light that a light sample brings.
@@ -386,9 +346,9 @@ class Path final : public Integrator {
 
     // What a light sample brings along the path if nothing stands between.
     template <Rivals rivals = Rivals::scattering>
-    static void weigh(Scene const& scene, Interaction const& here, CameraPath& path, Walk const& walk,
-                      Shadows& shadows) {
+    void weigh(Scene const& scene, Met const& met, CameraPath& path, Walk const& walk, Shadows& shadows) const {
         LightSample const& light = *walk.light;
+        Interaction const& here = seen(met);
         Direction const wi = here.frame.to_local(light.wi);
         BsdfEvaluation const f = here.bsdf.evaluate(here.wo, wi);
         if (is_black(f.value) || !here.is_consistent(light.wi, wi)) return;
@@ -402,7 +362,9 @@ class Path final : public Integrator {
                                              path.wavelengths);
             competitors = Lanes(found.lane + walk.choice.probability * light.density->value);
         }
-        float const divisor = Dispersive ? float(mean(walk.state.reach * competitors)) : competitors[0];
+        float divisor = Dispersive ? float(mean(walk.state.reach * competitors)) : competitors[0];
+        if constexpr (Lit)
+            divisor += light_paths_.instead_of(scene, met, path.wavelengths, light, walk.choice, walk.rivalry);
         Lanes scattered(f.value.lane * (cosine / divisor));
         if constexpr (Media)
             scattered *=
@@ -433,12 +395,14 @@ class Path final : public Integrator {
     // here.
     bool scatter(Scene const& scene, CameraPath& path, Walk& walk, Shadows& shadows) const {
         if (walk.is_afloat()) return scatter_afloat(path, walk, shadows);
-        Interaction const here = meeting(scene, path, walk);
-        if (light_sampling_ && walk.light) weigh(scene, here, path, walk, shadows);
+        Met const met = meeting(scene, path, walk);
+        Interaction const& here = seen(met);
+        if (light_sampling_ && walk.light) weigh(scene, met, path, walk, shadows);
         auto const sample = here.bsdf.sample(here.wo, {walk.numbers.choices.y, walk.numbers.direction});
         if (!sample) return false;
         Direction const wi = here.frame.to_world(sample->wi);
         if (!here.is_consistent(wi, sample->wi)) return false;
+        if constexpr (Lit) walk.rivalry.scatter(scene, met, path.wavelengths, *sample, wi, walk.state.reach);
         if constexpr (Dispersive) {
             walk.arrival.mean_reach_before = mean(walk.state.reach);
             walk.state.reach *= sample->reach;
@@ -468,7 +432,9 @@ class Path final : public Integrator {
         return true;
     }
 
+    [[no_unique_address]] LightPaths light_paths_;
     KnownIndirect known_;
+    Splits splits_;
     LightSelector selector_;
     int max_bounces_;
     bool light_sampling_, environment_;
@@ -476,20 +442,51 @@ class Path final : public Integrator {
     bool ray_cones_;
 };
 
-}  // namespace
-
-std::unique_ptr<Integrator> make_path(Scene const& scene, RenderPlan const& plan, IntegratorOptions&) {
-    return path_until_known(scene, plan, {});
+template <class PathType>
+std::unique_ptr<Integrator> in_parts(std::unique_ptr<PathType> path, Scene const& scene, RenderPlan const& plan,
+                                     int most) {
+    if (most > 1) path->split(scene, plan, most);
+    return path;
 }
 
-std::unique_ptr<Integrator> path_until_known(Scene const& scene, RenderPlan const& plan, KnownIndirect known) {
-    auto const make = [&]<bool... Needs>()->std::unique_ptr<Integrator> {
-        return std::make_unique<Path<Needs...>>(scene, plan, std::move(known));
-    };
-    if (plan.scattering) return make.template operator()<true, true, true>();
+// make.operator()<what the plan needs>(): a Path of them.
+template <class Make>
+std::unique_ptr<Integrator> made_for(RenderPlan const& plan, Make&& make) {
     if (plan.media)
         return plan.dispersion ? make.template operator()<true, true>() : make.template operator()<false, true>();
     return plan.dispersion ? make.template operator()<true, false>() : make.template operator()<false, false>();
+}
+
+std::unique_ptr<Integrator> path_of(Scene const& scene, RenderPlan const& plan, KnownIndirect known, int parts) {
+    auto const make = [&]<bool... Needs>() {
+        return in_parts(std::make_unique<Path<Needs...>>(scene, plan, std::move(known)), scene, plan, parts);
+    };
+    return plan.scattering ? make.template operator()<true, true, true>() : made_for(plan, make);
+}
+
+}  // namespace
+
+std::unique_ptr<Integrator> path_in_parts(Scene const& scene, RenderPlan const& plan, IntegratorOptions& options,
+                                          int usual_splits) {
+    int const parts = options.integer("splits", 1, most_splits, usual_splits);
+    options.finish();
+    return path_of(scene, plan, {}, parts);
+}
+
+std::unique_ptr<Integrator> path_until_known(Scene const& scene, RenderPlan const& plan, KnownIndirect known) {
+    return path_of(scene, plan, std::move(known), 1);
+}
+
+std::unique_ptr<Integrator> caustic_path_in_parts(Scene const& scene, RenderPlan const& plan,
+                                                  IntegratorOptions& options, int usual_splits) {
+    AimedLightPaths light_paths = light_paths_asked_for(scene, plan, options, "caustic-path");
+    int const parts = options.integer("splits", 1, most_splits, usual_splits);
+    options.finish();
+    return made_for(plan, [&]<bool Dispersive, bool Media>() {
+        using Lit = Path<Dispersive, Media, false, true>;
+        return in_parts(std::make_unique<Lit>(scene, plan, KnownIndirect{}, std::move(light_paths)), scene, plan,
+                        parts);
+    });
 }
 
 }  // namespace iride

@@ -24,7 +24,20 @@ struct KnownIndirect {
     std::vector<std::string> remarks{};
 };
 
-std::unique_ptr<Integrator> make_path(Scene const& scene, RenderPlan const& plan, IntegratorOptions& options);
+// Option `splits`: the most parts that a camera path is split into (integrators/splits.h), where it says nothing
+// `usual_splits`.
+std::unique_ptr<Integrator> path_in_parts(Scene const& scene, RenderPlan const& plan, IntegratorOptions& options,
+                                          int usual_splits);
+// The same with light paths aimed at mirrors and glass beside it (integrators/aimed_light_paths.h).
+std::unique_ptr<Integrator> caustic_path_in_parts(Scene const& scene, RenderPlan const& plan,
+                                                  IntegratorOptions& options, int usual_splits);
+inline std::unique_ptr<Integrator> make_path(Scene const& scene, RenderPlan const& plan, IntegratorOptions& options) {
+    return path_in_parts(scene, plan, options, 1);
+}
+inline std::unique_ptr<Integrator> make_caustic_path(Scene const& scene, RenderPlan const& plan,
+                                                     IntegratorOptions& options) {
+    return caustic_path_in_parts(scene, plan, options, 1);
+}
 // `path` to where it first scatters other than by Dirac lobes: there lamps are sampled, and the rest is known.
 std::unique_ptr<Integrator> path_until_known(Scene const& scene, RenderPlan const& plan, KnownIndirect known);
 std::unique_ptr<Integrator> make_reference_path(Scene const& scene, RenderPlan const& plan, IntegratorOptions& options);

@@ -7,6 +7,7 @@
 #include <array>
 
 #include "integrators/choice.h"
+#include "integrators/layers.h"
 
 namespace iride {
 
@@ -208,13 +209,19 @@ RenderPlan make_plan(Scene const& scene) {
     decide("aovs", !layers.empty(),
            layers.empty() ? "film.aovs names none: nothing is computed beside the picture"
                           : layers + ": found after the picture, from its own paths");
+    auto const of_paths =
+        std::ranges::find_if(scene.film.aovs, [](LayerRequest const& r) { return is_made_of_paths(r.name); });
+    plan.whole_paths = of_paths != scene.film.aovs.end();
+    if (plan.whole_paths) plan.no_light_paths = fmt::format("the layer '{}' is made of camera paths", of_paths->name);
 
     plan.max_bounces = scene.render.max_bounces;
     decide("bounce limit", plan.max_bounces.has_value(),
            plan.max_bounces ? fmt::format("{} (the file's wish: light beyond is left out)", *plan.max_bounces)
                             : "none: Russian roulette ends paths without bias");
     AutomaticChoice const choice = choose_integrator(scene, plan);
-    decide("integrator auto", true, choice.name + ": " + choice.reason);
+    decide("integrator auto", true,
+           fmt::format("{}: {}; paths are {}", choice.name, choice.reason,
+                       plan.whole_paths ? "not split" : "split where a pilot finds noise"));
     return plan;
 }
 

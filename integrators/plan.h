@@ -23,6 +23,8 @@ struct RenderPlan {
     bool bands = false;
     bool ray_cones = false;       // a texture is averaged over what a path stands for
     bool observer_alone = false;  // wavelengths are not drawn for the lamps, even where that is quieter
+    std::string no_light_paths;   // why the picture can have none beside its camera paths; empty: it can
+    bool whole_paths = false;     // a layer wants the same paths again
     std::optional<int> max_bounces;
     LightSelection light_selection = LightSelection::power;
     std::optional<Surroundings> camera_in;  // absent: not the same for all camera rays

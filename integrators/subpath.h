@@ -35,9 +35,10 @@ struct WithoutJoins : Heuristic {
     static constexpr bool joins = false;
 };
 
+// What is known of the techniques that leave the last vertices of a subpath to the other side. `reach`: that of the
+// subpath before it goes on.
 template <class Heuristic>
-struct Subpath {
-    PathState state;
+struct OtherSide {
     Lanes near{}, far{};
     bool first = true;  // of its vertices
 
@@ -46,26 +47,44 @@ struct Subpath {
         near *= Heuristic::of(square(d) / cosine);
         far *= Heuristic::of(1 / cosine);
     }
-    // What the techniques that leave the last vertices of this subpath to the other side add.
-    Lanes others(Lanes const& p_back, Lanes const& p_before) const { return Heuristic::of(p_back) * found(p_before); }
-    void go_on(Meeting const& at, BsdfSample const& sample, Direction const& on, Lanes const& p_before) {
+    // What these techniques add. p_before(): asked only where it matters.
+    template <class Density>
+    Lanes others(Lanes const& p_back, Density&& p_before) const {
+        return Heuristic::of(p_back) * found(p_before);
+    }
+    template <class Density>
+    void go_on(float cosine_on, BsdfSample const& sample, Lanes const& reach, Density&& p_before) {
         float const per_density = 1 / sample.density->value;
-        far = Heuristic::of(at.cosine(on) * per_density) * found(p_before);
-        near = Heuristic::of(state.reach * per_density);
-        state.reach *= sample.reach;
+        far = Heuristic::of(cosine_on * per_density) * found(p_before);
+        near = Heuristic::of(reach * per_density);
         first = false;
     }
-    void go_on_through_dirac(Meeting const& at, BsdfSample const& sample, Lanes const& squared_index_ratio) {
-        far *= Heuristic::of(sample.reach * at.cosine(at.back()) / squared_index_ratio);
+    void go_on_through_dirac(float cosine_back, BsdfSample const& sample, Lanes const& squared_index_ratio) {
+        far *= Heuristic::of(sample.reach * cosine_back / squared_index_ratio);
         near = Lanes();
-        state.reach *= sample.reach;
         first = false;
     }
 
   private:
-    Lanes found(Lanes const& p_before) const {
-        if (!Heuristic::joins && !first) return Heuristic::of(p_before) * far;
-        return near + Heuristic::of(p_before) * far;
+    template <class Density>
+    Lanes found(Density&& p_before) const {
+        Lanes const from_far = is_black(far) ? Lanes() : Heuristic::of(p_before()) * far;
+        return Heuristic::joins || first ? near + from_far : from_far;
+    }
+};
+
+template <class Heuristic>
+struct Subpath : OtherSide<Heuristic> {
+    PathState state;
+
+    template <class Density>
+    void go_on(Meeting const& at, BsdfSample const& sample, Direction const& on, Density&& p_before) {
+        OtherSide<Heuristic>::go_on(at.cosine(on), sample, state.reach, p_before);
+        state.reach *= sample.reach;
+    }
+    void go_on_through_dirac(Meeting const& at, BsdfSample const& sample, Lanes const& squared_index_ratio) {
+        OtherSide<Heuristic>::go_on_through_dirac(at.cosine(at.back()), sample, squared_index_ratio);
+        state.reach *= sample.reach;
     }
 };
 

@@ -80,6 +80,7 @@ void check_furnace(Method const& m, double rho, std::optional<int> bounces = {})
 // Of a map many points are looked at: what they tell of it is then what all its photons tell.
 std::vector<Method> const methods{
     {"path", endless, false, true, false, Cost::seconds, 256},
+    {"path:splits=8", endless, false, true, false, Cost::minutes, 256},
     {"reference_path", endless, false, true, false, Cost::minutes, 256},
     {"auto", endless, false, true, false, Cost::seconds, 256},
     {"light-tracing", endless, false, true, false, Cost::minutes, 4096},

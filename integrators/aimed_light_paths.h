@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// Light paths aimed at mirrors and glass, of which each vertex is shown to the camera, and what they weigh against the
+// camera path they go with: what a caustic throws at a diffuse surface they find at once. (integrators/subpath.h)
+#pragma once
+
+#include "integrators/light_walk.h"
+
+namespace iride {
+
+using BesideLightPaths = WithoutJoins<BalanceHeuristic>;
+
+class AimedLightPaths {
+  public:
+    // `share`: of the camera paths that one goes with.
+    AimedLightPaths(Scene const& scene, RenderPlan const& plan, AimedEmission emission, float share)
+        : context_(scene, plan, plan.light_selection, share), emission_(std::move(emission)) {}
+
+    // The light path that goes with a camera path: its splats.
+    void follow(Scene const& scene, CameraPath& path, Splits const& splits, RayStatistics& statistics) const {
+        walk_from_light<BesideLightPaths>(
+            scene, context_, emission_, path, statistics, [](LightStart const&, Sample2) {},
+            [&](LightVertex<BesideLightPaths> const& here, Flux const& flux, Sample2 lens) {
+                auto const sent = send_to_camera(scene, context_, path.wavelengths, here, flux, lens, true, splits);
+                if (sent && !scene.accelerator->occluded(sent->shadow_ray, statistics))
+                    path.splats.push_back(sent->splat);
+            });
+    }
+
+    // How often light paths show the place where a camera's ray ends, over how often parts of camera paths do and
+    // the cosine there.
+    float per_camera_path(CameraPath const& path, Splits const& splits, float distance) const {
+        return context_.light_paths /
+               (static_cast<float>(splits.at(path.x, path.y)) * context_.camera.density(path.ray, distance));
+    }
+    // The density with which they start where a ray meets a lamp, back along it, over the cosine there.
+    float starting(Scene const& scene, Ray const& ray, Hit const& lamp) const {
+        Direction const travel = -ray.direction;
+        float const cosine = travel.dot(lamp.point.geometric_normal);
+        return emission_.density(scene, context_.ball, lamp.shape->light, lamp.point.position, travel, cosine) /
+               std::abs(cosine);
+    }
+    // What they weigh beside a light sample, in its units.
+    float instead_of(Scene const& scene, Meeting const& here, Wavelengths const& wavelengths, LightSample const& sample,
+                     LightSelector::Choice const& choice, OtherSide<BesideLightPaths> const& other) const {
+        float started =
+            emission_.density(scene, context_.ball, choice.light, here.point().position + sample.distance * sample.wi,
+                              -sample.wi, sample.cosine);
+        if (!(started > 0)) return 0;
+        if (!sample.density) started /= square(sample.distance);
+        return float(mean(other.others(Lanes(here.cosine(sample.wi) / sample.cosine * started), [&] {
+            return Lanes(here.scattering(scene, wavelengths, sample.wi, here.back()).density.lane);
+        })));
+    }
+
+  private:
+    TwoWayContext context_;
+    AimedEmission emission_;
+};
+
+// Option `light_paths`: their number for each camera path. Throws InputError for a scene that has nothing to aim at.
+AimedLightPaths light_paths_asked_for(Scene const& scene, RenderPlan const& plan, IntegratorOptions& options,
+                                      char const* integrator);
+
+}  // namespace iride

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a path of a batch carries from stage to stage, by what its scene needs.
+#pragma once
+
+#include "integrators/aimed_light_paths.h"
+#include "integrators/arrival.h"
+#include "integrators/flight.h"
+#include "integrators/path_batch.h"
+
+namespace iride {
+
+struct NotCarried {};
+
+// What light paths might have found in a path's stead.
+struct Rivalry : OtherSide<BesideLightPaths> {
+    float passed = 0;  // metres through surfaces that are none
+
+    void pass(float distance) {
+        passed += distance;
+        near = Lanes();
+    }
+    void scatter(Scene const& scene, Meeting const& at, Wavelengths const& wavelengths, BsdfSample const& sample,
+                 Direction const& on, Lanes const& reach) {
+        passed = 0;
+        if (sample.density) {
+            go_on(at.cosine(on), sample, reach,
+                  [&] { return Lanes(at.scattering(scene, wavelengths, on, at.back()).density.lane); });
+        } else {
+            go_on_through_dirac(at.cosine(at.back()), sample, at.squared_index_ratio(scene, wavelengths, on));
+            if (!at.is_framed_alike(scene, wavelengths, on)) far = Lanes();  // no light path comes this way
+        }
+    }
+};
+
+// A path under way, at its latest vertex: on a surface, or afloat in a medium that scatters.
+template <bool Media, bool Scattering, bool Lit>
+struct Walk {
+    PathState state;
+    Arrival arrival;
+    RayCone cone;  // 0 wide unless the plan carries it
+    VertexNumbers numbers;
+    bool has_hit;
+    bool light_is_known = false;  // of the next surface, but for what it emits
+    Hit hit;
+    LightSample const* light;      // that of the lamp asked; null: none
+    LightSelector::Choice choice;  // of that lamp
+    [[no_unique_address]] std::conditional_t<Media, Surroundings, NotCarried> in;
+    [[no_unique_address]] std::conditional_t<Scattering, std::optional<Afloat>, NotCarried> afloat;
+    [[no_unique_address]] std::conditional_t<Lit, Rivalry, NotCarried> rivalry;
+
+    bool is_afloat() const {
+        if constexpr (Scattering) return afloat.has_value();
+        return false;
+    }
+    Vector place() const {
+        if constexpr (Scattering)
+            if (afloat) return afloat->position;
+        return hit.point.position;
+    }
+};
+
+// Whether the surface there scatters other than by Dirac lobes.
+template <class Walk>
+bool is_dense(Scene const& scene, Walk const& walk) {
+    return scene.material(walk.hit.shape->material).traits.has_density;
+}
+// Whether it scatters so evenly that light samples alone find its light.
+template <class Walk>
+bool is_diffuse(Scene const& scene, Walk const& walk) {
+    return !walk.is_afloat() && scene.material(walk.hit.shape->material).traits.diffuse;
+}
+
+inline Interaction const& seen(Interaction const& here) { return here; }
+inline Interaction const& seen(Meeting const& here) { return here.seen(); }
+
+// Parts of a batch's paths, that are followed together.
+template <class Walk>
+class Parts {
+  public:
+    std::size_t size() const { return count_; }
+    std::span<CameraPath> paths() { return std::span(paths_).first(count_); }
+    std::array<Walk, batch_size>& walks() { return walks_; }
+
+    // Part k of `parts` of a path at its first vertex.
+    void add(CameraPath& whole, Walk const& walk, std::uint32_t k, std::uint32_t parts) {
+        CameraPath& part = paths_[count_];
+        part = whole;
+        part.radiance = Radiance();
+        part.part = 1 / static_cast<float>(parts);
+        part.sampler.split(k, parts);
+        walks_[count_] = walk;
+        part.sampler.begin_vertex(0, walks_[count_].numbers);
+        whole_[count_++] = &whole;
+    }
+    // To the paths they are of what they have brought.
+    void gather() {
+        for (std::size_t k = 0; k < count_; ++k) {
+            whole_[k]->radiance += paths_[k].radiance;
+            whole_[k]->complete &= paths_[k].complete;
+        }
+        count_ = 0;
+    }
+
+  private:
+    std::array<CameraPath, batch_size> paths_;
+    std::array<CameraPath*, batch_size> whole_;
+    std::array<Walk, batch_size> walks_;
+    std::size_t count_ = 0;
+};
+
+}  // namespace iride

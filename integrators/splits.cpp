@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "integrators/splits.h"
+
+#include <tbb/parallel_for.h>
+
+#include <array>
+#include <cmath>
+
+#include "film/film.h"
+
+namespace iride {
+
+namespace {
+
+constexpr int least_block = 4, most_blocks = 128;  // pixels along a side; blocks along the picture's longer side
+constexpr int side = 4, rounds = 2;                // of a block's pilot: 4 x 4 places, as many paths at each
+constexpr std::uint64_t pilot_seed = 0x5911;
+constexpr double first_part = 0.15;  // of a path's time: up to its first vertex (measured)
+// Of the noise that parts of a path share, from its place and wavelengths: both are stratified, it soon falls faster.
+constexpr double shared_part = 0.1;
+
+// What a block of pixels has to say.
+struct Pilot {
+    double apart = 0;   // relative variance between parts of one path
+    double shared = 0;  // between paths, without that
+    double rays = 0;    // of a part
+};
+
+// Colours of paths that are taken two and two as parts of one.
+class Pairs {
+  public:
+    Pairs(Scene const& scene) : film_(2 * side * side, rounds, cie1931_2deg(), scene.grid) {}
+    void add(std::size_t path, int round, CameraPath const& p) {
+        film_.add(static_cast<int>(path), round, p.wavelengths, p.radiance);
+    }
+    Pilot result() const {
+        Eigen::Array3d sum(0, 0, 0), apart(0, 0, 0), between(0, 0, 0);
+        for (int i = 0; i < 2 * side * side; i += 2) {
+            Eigen::Array3d before(0, 0, 0);
+            for (int r = 0; r < rounds; ++r) {
+                Eigen::Array3d const a = colour(i, r), b = colour(i + 1, r), both = (a + b) / 2;
+                sum += both;
+                apart += (a - b).square() / 2;
+                if (r > 0) between += (both - before).square() / 2;
+                before = both;
+            }
+        }
+        constexpr double places = side * side, paths = places * rounds;
+        apart /= paths;
+        between = between / (places * (rounds - 1)) - apart / 2;
+        constexpr double black = 0.01;  // that of relMSE
+        Eigen::Array3d const measure = (sum / paths).square() + black;
+        return {(apart / measure).mean(), (between / measure).mean()};
+    }
+
+  private:
+    Eigen::Array3d colour(int path, int round) const { return to_vector(film_.mean(path, round)).array(); }
+    Film film_;
+};
+
+Pilot pilot_of_block(Scene const& scene, PathStarter const& starter, Crop const& block, FollowPaths const& follow) {
+    std::array<CameraPath, 2 * side * side> paths;
+    Pairs pairs(scene);
+    RayStatistics statistics;
+    for (int round = 0; round < rounds; ++round) {
+        for (int i = 0; i < 2 * side * side; ++i) {
+            CameraPath& path = paths[static_cast<std::size_t>(i)];
+            int const column = i / 2 % side, row = i / 2 / side;
+            starter.start(block.x0 + (block.x1 - block.x0) * column / side,
+                          block.y0 + (block.y1 - block.y0) * row / side, static_cast<std::uint32_t>(round), path);
+            path.sampler.split(static_cast<std::uint32_t>(i % 2), 2);
+        }
+        follow(paths, statistics);
+        for (std::size_t i = 0; i < paths.size(); ++i)
+            if (paths[i].complete && is_finite(paths[i].radiance)) pairs.add(i, round, paths[i]);
+    }
+    Pilot pilot = pairs.result();
+    pilot.rays = static_cast<double>(statistics.closest_rays + statistics.shadow_rays) /
+                 (rounds * static_cast<double>(paths.size()));
+    return pilot;
+}
+
+// Few paths see little: what one block finds its neighbours may have missed.
+Image<Pilot> spread(Image<Pilot> const& found) {
+    Image<Pilot> out(found.width, found.height);
+    for (int y = 0; y < found.height; ++y)
+        for (int x = 0; x < found.width; ++x) {
+            Pilot sum;
+            int count = 0;
+            for (int v = std::max(0, y - 1); v <= std::min(found.height - 1, y + 1); ++v)
+                for (int u = std::max(0, x - 1); u <= std::min(found.width - 1, x + 1); ++u, ++count) {
+                    Pilot const& p = found.at(u, v);
+                    sum.apart += p.apart, sum.shared += p.shared, sum.rays += p.rays;
+                }
+            out.at(x, y) = {std::max(found.at(x, y).apart, sum.apart / count), std::max(0.0, sum.shared / count),
+                            sum.rays / count};
+        }
+    return out;
+}
+
+// The power of two next to factor sqrt(v / c).
+int parts_of(Pilot const& p, double factor, int most) {
+    double const wanted = p.rays > 0 ? factor * std::sqrt(p.apart / p.rays) : 1;
+    int parts = 1;
+    while (2 * parts <= most && wanted > std::sqrt(2.0) * parts) parts *= 2;
+    return parts;
+}
+
+// Time x error, in units of their own.
+double inefficiency(Image<Pilot> const& pilot, double factor, int most) {
+    double rays = 0, time = 0, error = 0;
+    for (Pilot const& p : pilot.pixel) rays += p.rays;
+    double const first = first_part * rays / static_cast<double>(pilot.pixel.size());
+    for (Pilot const& p : pilot.pixel) {
+        int const parts = parts_of(p, factor, most);
+        time += first + (1 - first_part) * parts * p.rays;
+        error += p.apart / parts + shared_part * p.shared;
+    }
+    return time * error;
+}
+
+// Of a geometric series; 0, for which nothing is split, among them.
+double best_factor(Image<Pilot> const& pilot, int most) {
+    double highest = 0;  // beyond which all have `most`
+    for (Pilot const& p : pilot.pixel)
+        if (p.apart > 0 && p.rays > 0) highest = std::max(highest, 2 * most * std::sqrt(p.rays / p.apart));
+    double best = 0, least = inefficiency(pilot, 0, most);
+    constexpr int steps = 120;
+    for (int i = 0; i < steps; ++i) {
+        double const factor = highest * std::pow(10, -0.05 * i), here = inefficiency(pilot, factor, most);
+        if (here < least) least = here, best = factor;
+    }
+    return best;
+}
+
+}  // namespace
+
+Splits::Splits(Image<std::uint8_t> parts, int width, int height)
+    : parts_(std::move(parts)),
+      columns_per_pixel_(static_cast<float>(parts_.width) / static_cast<float>(width)),
+      rows_per_pixel_(static_cast<float>(parts_.height) / static_cast<float>(height)) {}
+
+Splits learn_splits(Scene const& scene, RenderPlan const& plan, int most, FollowPaths const& follow) {
+    int const width = scene.film.width, height = scene.film.height,
+              block = std::max(least_block, (std::max(width, height) + most_blocks - 1) / most_blocks);
+    Image<Pilot> pilot(std::max(1, width / block), std::max(1, height / block));
+    PathStarter const starter(scene, plan, width, height, SamplerKind::sobol, pilot_seed);
+    tbb::parallel_for(0, pilot.height, [&](int y) {
+        for (int x = 0; x < pilot.width; ++x)
+            pilot.at(x, y) = pilot_of_block(scene, starter,
+                                            {width * x / pilot.width, height * y / pilot.height,
+                                             width * (x + 1) / pilot.width, height * (y + 1) / pilot.height},
+                                            follow);
+    });
+    pilot = spread(pilot);
+    double const factor = best_factor(pilot, most);
+    if (!(factor > 0)) return {};
+    Image<std::uint8_t> parts(pilot.width, pilot.height);
+    for (std::size_t i = 0; i < parts.pixel.size(); ++i)
+        parts.pixel[i] = static_cast<std::uint8_t>(parts_of(pilot.pixel[i], factor, most));
+    return Splits(std::move(parts), width, height);
+}
+
+}  // namespace iride

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// Into how many parts the camera paths of a pixel are split at their first vertex: each part is followed on its own and
+// counts as 1 / k of the sample. A pilot of two parts a path tells, block of pixels by block, what splitting can save:
+//   v = E[(a - b)^2] / 2 over the parts a, b of one path, relative to the squared mean colour [as relMSE]
+// Then k ~ sqrt(v / c), c what a part costs [rays], with the factor for which time x error is least [Neyman 1934]: as
+// adaptive sampling, but every pixel has the same number of samples, and as the pilot's paths are not in the picture it
+// stays unbiased.                                                                        [Bolin 1997] [Rath 2022]
+#pragma once
+
+#include <functional>
+
+#include "film/image.h"
+#include "integrators/camera_path.h"
+
+namespace iride {
+
+class Splits {
+  public:
+    Splits() = default;
+    // `parts`: of the paths of equal blocks of a picture of this size.
+    Splits(Image<std::uint8_t> parts, int width, int height);
+
+    // Whether no path is split.
+    bool none() const { return parts_.pixel.empty(); }
+    // Of a path through place (x, y) of the picture, in pixels.
+    std::uint32_t at(float x, float y) const {
+        if (none()) return 1;
+        return parts_.at(block(x * columns_per_pixel_, parts_.width), block(y * rows_per_pixel_, parts_.height));
+    }
+
+  private:
+    static int block(float place, int count) { return std::clamp(static_cast<int>(place), 0, count - 1); }
+
+    Image<std::uint8_t> parts_;
+    float columns_per_pixel_ = 0, rows_per_pixel_ = 0;
+};
+
+// Follows paths that are not split.
+using FollowPaths = std::function<void(std::span<CameraPath>, RayStatistics&)>;
+
+// At most `most` parts, powers of two. A function of scene and plan alone.
+Splits learn_splits(Scene const& scene, RenderPlan const& plan, int most, FollowPaths const& follow);
+
+}  // namespace iride

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// Camera paths split into parts bring the light that whole ones bring, and are split where that saves time.
+#include "integrators/splits.h"
+#include "support/agreement.h"
+
+using namespace iride;
+using namespace iride::test;
+
+namespace {
+
+std::string const gold = R"({ "type": "conductor", "ior": "Au", "roughness": 0.1 })",
+                  glass = R"({ "type": "dielectric", "ior": { "pairs": [[300, 1.7], [900, 1.4]] } })";
+
+std::shared_ptr<Scene> lit(std::string const& body, std::string const& film = "") {
+    auto const text = scene_text(view, R"("shapes": [)" + floor_quad + "," + lamp + "," + sphere(body) + "]", film);
+    return std::shared_ptr<Scene>(scene_from(text));
+}
+
+void check_parts(std::string const& body, char const* integrator, std::string const& film = "") {
+    check_agreement(*lit(body, film), {.integrator = integrator, .oracle = "path", .spp = 1000, .oracle_spp = 4000});
+}
+
+// A picture whose paths bring 1 give or take what noise(x) draws from numbers of their first vertex.
+template <class Noise>
+Splits learnt(int width, int height, int most, Noise&& noise) {
+    auto const scene = scene_from(scene_text(view, R"("shapes": [)" + floor_quad + "," + lamp + "]"));
+    scene->film.width = width;
+    scene->film.height = height;
+    return learn_splits(*scene, make_plan(*scene), most, [&](std::span<CameraPath> paths, RayStatistics& rays) {
+        for (CameraPath& path : paths) {
+            path.sampler.begin_vertex(0);
+            path.radiance = Radiance(1 + noise(path, path.sampler.next() - 0.5f));
+            ++rays.closest_rays;
+        }
+    });
+}
+
+}  // namespace
+
+// Fails if a part counts as a whole path, if the light paths' weights know nothing of the parts, or if the parts of a
+// path share their numbers (by the variance that is then too small).
+TEST_CASE("parts bring what whole paths bring: a caustic, glass, fog", "[law]") {
+    check_parts(gold, "path:splits=8");
+    check_parts(glass, "path:splits=8");
+    check_parts(gold, "caustic-path:splits=8,light_paths=0.3");
+    check_parts(glass, "caustic-path:splits=4");
+    check_parts(gold, "caustic-path:splits=8", R"(, "filter": "gaussian")");
+}
+
+// Fails if parts go where paths differ by their place alone, or if noise that is twice as high has twice as many.
+TEST_CASE("paths are split by the noise of what follows their first vertex", "[law]") {
+    auto const by_half = learnt(64, 32, 16, [](CameraPath const& path, float u) {
+        return path.x < 16 ? 1.6f * u : path.x < 32 ? 0.2f * u : 0.0f;
+    });
+    REQUIRE_FALSE(by_half.none());
+    std::uint32_t const noisy = by_half.at(4, 16), quiet = by_half.at(24, 16);
+    CHECK(noisy == 16);
+    CHECK((quiet == 1 || quiet == 2));
+    CHECK(by_half.at(60, 16) == 1);
+    CHECK(by_half.at(-3, 40) == noisy);  // a filter may reach beyond the edge
+    CHECK(learnt(64, 32, 16, [](CameraPath const& path, float) { return 0.5f * std::sin(path.x); }).none());
+    CHECK(learnt(64, 32, 16, [](CameraPath const&, float) { return 0.0f; }).none());
+    CHECK(learnt(64, 32, 1, [](CameraPath const&, float u) { return u; }).none());
+}
+
+TEST_CASE("the numbers of a path's parts are those of as many more samples", "[law]") {
+    for (SamplerKind kind : {SamplerKind::sobol, SamplerKind::zsobol, SamplerKind::stratified})
+        for (std::uint32_t sample : {0u, 5u})
+            for (std::uint32_t part : {0u, 3u}) {
+                Sampler whole(kind, 7, 11, sample), more(kind, 7, 11, 4 * sample + part);
+                whole.split(part, 4);
+                for (std::uint32_t vertex : {0u, 2u}) {
+                    whole.begin_vertex(vertex);
+                    more.begin_vertex(vertex);
+                    for (int i = 0; i < 4; ++i) {
+                        Sample2 const a = whole.next2(), b = more.next2();
+                        CHECK((a.x == b.x && a.y == b.y));
+                    }
+                }
+            }
+}
