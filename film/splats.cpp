@@ -22,9 +22,10 @@ std::array<double, 3> components(Xyz const& c) { return {c.X, c.Y, c.Z}; }
 }  // namespace
 
 void Splats::Sum::add(double value) {
-    double const whole = std::floor(value / unit_high);
+    double const whole = std::floor(value * (1 / unit_high));
+    constexpr double half = 0.5;  // rounds what is not negative
     add_atomically(high, static_cast<std::int64_t>(whole));
-    add_atomically(low, std::llround((value - whole * unit_high) / unit_low));
+    add_atomically(low, static_cast<std::int64_t>((value - whole * unit_high) * (1 / unit_low) + half));
 }
 
 double Splats::Sum::total() const {
