@@ -12,7 +12,7 @@
 namespace iride {
 
 struct IntegratorChoice {
-    std::string name = "path";
+    std::string name = "auto";
     JsonValue options{JsonObject{}};
     std::filesystem::path file{};  // where it was read; empty: the command line
     std::string key_path = "integrator";

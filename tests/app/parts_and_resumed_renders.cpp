@@ -105,7 +105,7 @@ TEST_CASE("a checkpoint of another render is refused", "[input]") {
         char const *options, *message, *size = "48x40";
     };
     for (Case const& c : {Case{"--seed 2", "seed is 1, here 2"}, Case{"--seed 1", "size is 48 40, here 49 40", "49x40"},
-                          Case{"--seed 1 --integrator reference_path", "integrator is path, here reference_path"},
+                          Case{"--seed 1 --integrator reference_path", "integrator is auto, here reference_path"},
                           Case{"--seed 1 --crop 0,0,8,8", "crop is 0 0 48 40, here 0 0 8 8"},
                           Case{"--seed 1 --first-sample 3", "first sample is 0, here 3"},
                           Case{"--seed 1 --adaptive --time 1", "films is 1, here 4"}}) {
@@ -304,7 +304,7 @@ TEST_CASE("pictures of other scenes, sizes, versions or the same samples are not
     REQUIRE(at.render("--spp 4 --seed 3", "b.exr", "47x40").code == 0);
     refused(a + at("b.exr"), "size is 48 40, here 47 40");
     REQUIRE(at.render("--spp 4 --seed 3 --integrator reference_path", "b.exr").code == 0);
-    refused(a + at("b.exr"), "integrator is path, here reference_path");
+    refused(a + at("b.exr"), "integrator is auto, here reference_path");
     REQUIRE(test::run_iride("render metals --quiet --spp 4 --seed 3 --size 48x40 -o " + at("b.exr")).code == 0);
     refused(a + at("b.exr"), "scene hash is ");
     REQUIRE(at.render("--time 0.1 --adaptive", "b.exr").code == 0);

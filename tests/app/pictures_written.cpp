@@ -78,7 +78,7 @@ TEST_CASE("exrheader shows what a pipeline wants to know", "[app]") {
     CHECK_THAT(header.text, Contains("iride:sceneHash (type string): \"" + load_scene(scene)->hash + "\""));
     CHECK_THAT(header.text, Contains("iride:spp (type int): 5"));
     CHECK_THAT(header.text, Contains("iride:seed (type string): \"123456789012\""));
-    CHECK_THAT(header.text, Contains("iride:integrator (type string): \"path\""));
+    CHECK_THAT(header.text, Contains("iride:integrator (type string): \"auto\""));
     CHECK_THAT(header.text, Contains("iride:observer (type string): \"cie1931_2deg\""));
     CHECK_THAT(header.text, Contains("spectralLayoutVersion (type string): \"1.0\"") &&
                                 Contains("emissiveUnits (type string): \"W.m^-2.sr^-1\""));
