@@ -57,3 +57,9 @@ build_release() {
     cmake --preset release
     cmake --build --preset release --parallel "$(nproc)" --target "$@"
 }
+
+# build_lanes N: `iride` with N wavelengths per path, in build/lanes-N.
+build_lanes() {
+    cmake --preset release -B "build/lanes-$1" -D IRIDE_LANES="$1"
+    cmake --build "build/lanes-$1" --parallel "$(nproc)" --target iride
+}

@@ -10,7 +10,7 @@ namespace iride::bench {
 
 namespace {
 
-constexpr std::array<Benchmark, 12> table{{
+constexpr std::array<Benchmark, 14> table{{
     {"rays", "rays per second, one thread, against bare Embree on the same rays", measure_rays, true},
     {"peers", "256 x 256, 64 spp, 2 threads: time, relMSE and paths per second, as published for other renderers",
      measure_peers, true},
@@ -24,6 +24,8 @@ constexpr std::array<Benchmark, 12> table{{
     {"spp", "paths per second over samples per pixel", measure_spp, true},
     {"resolution", "paths per second over the size of the picture", measure_resolution, true},
     {"plan", "what each decision of the plan saves", measure_plan, true},
+    {"adaptive", "--error de=2: uniform samples against adaptive ones", measure_adaptive, true},
+    {"lanes", "time and noise at this build's number of wavelengths per path", measure_lanes, true},
     {"stress", "numerical stability, the long form: scales, distances, slivers, lamps, precision", run_stress, false},
 }};
 

@@ -49,6 +49,8 @@ Rows measure_lamps(Settings const&);
 Rows measure_spp(Settings const&);
 Rows measure_resolution(Settings const&);
 Rows measure_plan(Settings const&);
+Rows measure_lanes(Settings const&);
+Rows measure_adaptive(Settings const&);
 Rows run_stress(Settings const&);
 
 // The least-squares line through log(y) over log(x), of two points or more of different x.

@@ -24,10 +24,10 @@ struct Rate {
     double relative_error;
 };
 
-// Of several renders by the scene's integrator, in different seeds.
+// Of several renders by `path`, in different seeds.
 Rate rate_of(Scene const& scene, int spp, int threads, int rounds) {
     RenderPlan const plan = make_plan(scene);
-    auto const integrator = make_integrator(scene.render.integrator, scene, plan);
+    auto const integrator = make_integrator("path", scene, plan);
     std::vector<double> rates;
     Rate rate{};
     for (int round = 0; round < rounds; ++round) {
@@ -114,7 +114,7 @@ Rows measure_rays(Settings const& settings) {
     for (std::string const& name : scenes_of(settings, boxes_and_metals)) {
         settings.say("rays: " + name);
         auto const scene = load_for_picture(name);
-        RayRace const race(*scene, scene->render.integrator.text(), spp);
+        RayRace const race(*scene, "path", spp);
         std::vector<double> ratio, rendered, bare, paths;
         for (int round = 0; round < settings.rounds; ++round) {
             RayRates const r = race.round();
