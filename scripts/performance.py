@@ -123,8 +123,8 @@ def adaptive(rows):
 def lanes(files):
     title("Wavelengths per path",
           "Builds with `-DIRIDE_LANES=n`, one thread, 64 samples. Noise: relative variance of one sample, mean over pixels, of Y and of "
-          "colour (X and Z where Y is known). Wavelengths alone: mean of X, Y and Z on `checker`, where light varies by nothing else; predicted from the "
-          "packets' densities by quadrature.")
+          "colour (X and Z where Y is known). Wavelengths alone: mean of X, Y and Z on `checker`, "
+          "where light varies by nothing else, in the median pixel; predicted from the packets' densities by quadrature.")
     rows = [r for f in files for r in json.loads(pathlib.Path(f).read_text())["lanes"]]
     rows.sort(key=lambda r: (r["scene"], r["lanes"]))
     table(["scene", "lanes", "us per path", "relMSE", "noise of Y", "of colour", "wavelengths alone", "predicted"],
