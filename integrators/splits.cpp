@@ -13,7 +13,7 @@ namespace iride {
 namespace {
 
 constexpr int least_block = 4, most_blocks = 128;  // pixels along a side; blocks along the picture's longer side
-constexpr int side = 4, rounds = 2;                // of a block's pilot: 4 x 4 places, as many paths at each
+constexpr int side = 2, rounds = 2;                // of a block's pilot: 2 x 2 places, as many paths at each
 constexpr std::uint64_t pilot_seed = 0x5911;
 constexpr double first_part = 0.15;  // of a path's time: up to its first vertex (measured)
 // Of the noise that parts of a path share, from its place and wavelengths: both are stratified, it soon falls faster.
@@ -26,19 +26,21 @@ struct Pilot {
     double rays = 0;    // of a part
 };
 
-// Colours of paths that are taken two and two as parts of one.
+constexpr int paths_of_block = 2 * side * side;
+
+// Colours of the paths of a row of blocks, that are taken two and two as parts of one.
 class Pairs {
   public:
-    Pairs(Scene const& scene) : film_(2 * side * side, rounds, cie1931_2deg(), scene.grid) {}
-    void add(std::size_t path, int round, CameraPath const& p) {
-        film_.add(static_cast<int>(path), round, p.wavelengths, p.radiance);
+    Pairs(Scene const& scene, int blocks) : film_(paths_of_block, rounds * blocks, cie1931_2deg(), scene.grid) {}
+    void add(int path, int round, int block, CameraPath const& p) {
+        if (p.complete && is_finite(p.radiance)) film_.add(path, block * rounds + round, p.wavelengths, p.radiance);
     }
-    Pilot result() const {
+    Pilot result(int block, double rays) const {
         Eigen::Array3d sum(0, 0, 0), apart(0, 0, 0), between(0, 0, 0);
-        for (int i = 0; i < 2 * side * side; i += 2) {
+        for (int i = 0; i < paths_of_block; i += 2) {
             Eigen::Array3d before(0, 0, 0);
             for (int r = 0; r < rounds; ++r) {
-                Eigen::Array3d const a = colour(i, r), b = colour(i + 1, r), both = (a + b) / 2;
+                Eigen::Array3d const a = colour(i, r, block), b = colour(i + 1, r, block), both = (a + b) / 2;
                 sum += both;
                 apart += (a - b).square() / 2;
                 if (r > 0) between += (both - before).square() / 2;
@@ -50,20 +52,22 @@ class Pairs {
         between = between / (places * (rounds - 1)) - apart / 2;
         constexpr double black = 0.01;  // that of relMSE
         Eigen::Array3d const measure = (sum / paths).square() + black;
-        return {(apart / measure).mean(), (between / measure).mean()};
+        return {(apart / measure).mean(), (between / measure).mean(), rays / (2 * paths)};
     }
 
   private:
-    Eigen::Array3d colour(int path, int round) const { return to_vector(film_.mean(path, round)).array(); }
+    Eigen::Array3d colour(int path, int round, int block) const {
+        return to_vector(film_.mean(path, block * rounds + round)).array();
+    }
     Film film_;
 };
 
-Pilot pilot_of_block(Scene const& scene, PathStarter const& starter, Crop const& block, FollowPaths const& follow) {
-    std::array<CameraPath, 2 * side * side> paths;
-    Pairs pairs(scene);
+// Block `number` of a row.
+Pilot pilot_of(Crop const& block, int number, PathStarter const& starter, FollowPaths const& follow, Pairs& pairs) {
+    std::array<CameraPath, paths_of_block> paths;
     RayStatistics statistics;
     for (int round = 0; round < rounds; ++round) {
-        for (int i = 0; i < 2 * side * side; ++i) {
+        for (int i = 0; i < paths_of_block; ++i) {
             CameraPath& path = paths[static_cast<std::size_t>(i)];
             int const column = i / 2 % side, row = i / 2 / side;
             starter.start(block.x0 + (block.x1 - block.x0) * column / side,
@@ -71,13 +75,9 @@ Pilot pilot_of_block(Scene const& scene, PathStarter const& starter, Crop const&
             path.sampler.split(static_cast<std::uint32_t>(i % 2), 2);
         }
         follow(paths, statistics);
-        for (std::size_t i = 0; i < paths.size(); ++i)
-            if (paths[i].complete && is_finite(paths[i].radiance)) pairs.add(i, round, paths[i]);
+        for (int i = 0; i < paths_of_block; ++i) pairs.add(i, round, number, paths[static_cast<std::size_t>(i)]);
     }
-    Pilot pilot = pairs.result();
-    pilot.rays = static_cast<double>(statistics.closest_rays + statistics.shadow_rays) /
-                 (rounds * static_cast<double>(paths.size()));
-    return pilot;
+    return pairs.result(number, static_cast<double>(statistics.closest_rays + statistics.shadow_rays));
 }
 
 // Few paths see little: what one block finds its neighbours may have missed.
@@ -146,11 +146,11 @@ Splits learn_splits(Scene const& scene, RenderPlan const& plan, int most, Follow
     Image<Pilot> pilot(std::max(1, width / block), std::max(1, height / block));
     PathStarter const starter(scene, plan, width, height, SamplerKind::sobol, pilot_seed);
     tbb::parallel_for(0, pilot.height, [&](int y) {
+        Pairs pairs(scene, pilot.width);
         for (int x = 0; x < pilot.width; ++x)
-            pilot.at(x, y) = pilot_of_block(scene, starter,
-                                            {width * x / pilot.width, height * y / pilot.height,
-                                             width * (x + 1) / pilot.width, height * (y + 1) / pilot.height},
-                                            follow);
+            pilot.at(x, y) = pilot_of({width * x / pilot.width, height * y / pilot.height,
+                                       width * (x + 1) / pilot.width, height * (y + 1) / pilot.height},
+                                      x, starter, follow, pairs);
     });
     pilot = spread(pilot);
     double const factor = best_factor(pilot, most);
