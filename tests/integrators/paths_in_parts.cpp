@@ -37,8 +37,7 @@ Splits learnt(int width, int height, int most, Noise&& noise) {
 
 }  // namespace
 
-// Fails if a part counts as a whole path, if the light paths' weights know nothing of the parts, or if the parts of a
-// path share their numbers (by the variance that is then too small).
+// Fails if a part counts as a whole path, or if the light paths' weights know nothing of the parts.
 TEST_CASE("parts bring what whole paths bring: a caustic, glass, fog", "[law]") {
     check_parts(gold, "path:splits=8");
     check_parts(glass, "path:splits=8");
@@ -61,6 +60,16 @@ TEST_CASE("paths are split by the noise of what follows their first vertex", "[l
     CHECK(learnt(64, 32, 16, [](CameraPath const& path, float) { return 0.5f * std::sin(path.x); }).none());
     CHECK(learnt(64, 32, 16, [](CameraPath const&, float) { return 0.0f; }).none());
     CHECK(learnt(64, 32, 1, [](CameraPath const&, float u) { return u; }).none());
+}
+
+// At least half the variance goes with up to 8 parts. Fails if the parts of a path share their numbers.
+TEST_CASE("paths in parts are quieter than whole ones", "[law]") {
+    auto const scene = lit(gold);
+    auto const noise = [&](char const* integrator) {
+        return square(rendered(*scene, integrator, {.spp = 256, .seed = 3}).relative_error());
+    };
+    CHECK(noise("path:splits=8") < 0.5 * noise("path"));
+    CHECK(noise("caustic-path:splits=8") < 0.5 * noise("caustic-path"));
 }
 
 TEST_CASE("the numbers of a path's parts are those of as many more samples", "[law]") {
