@@ -251,9 +251,8 @@ int run_render(Options const& o) {
     if (!out.preview.empty()) display = ColourConfig(o.ocio).to_display("", o.view);
     if (o.aov) scene->film.aovs = parse_layers(*o.aov);
     RenderPlan plan = make_plan_without(o.plan_disabled, *scene);
-    if (o.adaptive || !o.crop.empty())
-        plan.no_light_paths =
-            o.crop.empty() ? "pixels have numbers of samples of their own" : "a crop has no light paths of its own";
+    if (o.adaptive) plan.no_light_paths = "pixels have numbers of samples of their own";
+    if (!o.crop.empty()) plan.no_light_paths = "a crop has no light paths of its own";
     IntegratorChoice const choice = o.integrator.empty() ? scene->render.integrator : parse_integrator(o.integrator);
     std::string const& name = choice.name;
     if (!o.solution.empty() && name != "radiosity")

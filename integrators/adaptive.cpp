@@ -7,6 +7,7 @@
 #include "base/clock.h"
 #include "base/random.h"
 #include "film/checkpoint.h"
+#include "integrators/around.h"
 
 namespace iride {
 
@@ -26,10 +27,7 @@ Image<double> spread(Image<double> const& noise) {
     for (int y = 0; y < noise.height; ++y)
         for (int x = 0; x < noise.width; ++x) {
             double total = 0;
-            int count = 0;
-            for (int v = std::max(0, y - reach); v <= std::min(noise.height - 1, y + reach); ++v)
-                for (int u = std::max(0, x - reach); u <= std::min(noise.width - 1, x + reach); ++u, ++count)
-                    total += noise.at(u, v);
+            int const count = for_each_around(noise, x, y, reach, [&](double n) { total += n; });
             out.at(x, y) = total / count;
         }
     return out;

@@ -47,9 +47,8 @@ class AimedLightPaths {
                               -sample.wi, sample.cosine);
         if (!(started > 0)) return 0;
         if (!sample.density) started /= square(sample.distance);
-        return float(mean(other.others(Lanes(here.cosine(sample.wi) / sample.cosine * started), [&] {
-            return Lanes(here.scattering(scene, wavelengths, sample.wi, here.back()).density.lane);
-        })));
+        return float(mean(other.others(Lanes(here.cosine(sample.wi) / sample.cosine * started),
+                                       [&] { return here.density_back(scene, wavelengths, sample.wi); })));
     }
 
   private:

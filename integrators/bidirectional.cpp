@@ -163,9 +163,8 @@ class Bidirectional final : public Integrator {
         if (light.extent() == LightExtent::point) p_back /= square(sample->distance);
         Lanes techniques = Heuristic::of(walk.state.reach);
         if (p_back > 0)
-            techniques += walk.others(Lanes(p_back), [&] {
-                return Lanes(here.scattering(scene, path.wavelengths, sample->wi, here.back()).density.lane);
-            });
+            techniques +=
+                walk.others(Lanes(p_back), [&] { return here.density_back(scene, path.wavelengths, sample->wi); });
         if (sample->density) techniques += Heuristic::of(walk.state.reach * Lanes(s.density.lane) / chosen);
         float const scale = s.cosine / (chosen * float(mean(techniques)));
         Throughput const let_through = here.let_through(scene, path.wavelengths, sample->wi, sample->distance);
@@ -186,14 +185,13 @@ class Bidirectional final : public Integrator {
         if (is_black(f.value)) return;
         Scattering const g = there.scattering(scene, wavelengths, -towards, there.back());
         if (is_black(g.value)) return;
-        Scattering const f_back = here.scattering(scene, wavelengths, towards, here.back());
         Scattering const g_on = there.scattering(scene, wavelengths, there.back(), -towards);
         Lanes const p_there = Lanes(f.density.lane) * (there.cosine(towards) / distance2),
                     p_here = Lanes(g_on.density.lane) * (here.cosine(towards) / distance2);
         Lanes const here_reach = Heuristic::of(walk.state.reach), there_reach = Heuristic::of(vertex.path.state.reach);
         Lanes const techniques = here_reach * there_reach + here_reach * vertex.path.others(p_there, [&] {
             return Lanes(g.density.lane);
-        }) + there_reach * walk.others(p_here, [&] { return Lanes(f_back.density.lane); });
+        }) + there_reach * walk.others(p_here, [&] { return here.density_back(scene, wavelengths, towards); });
         float const scale =
             f.cosine * there.adjoint_cosine(g.cosine, there.back(), towards) / (distance2 * float(mean(techniques)));
         Radiance const joined(work.flux.lane * vertex.path.state.weight.lane * g.value.lane * f.value.lane * scale);
@@ -208,8 +206,7 @@ class Bidirectional final : public Integrator {
         Direction const on = seen.frame.to_world(sample->wi);
         if (!seen.is_consistent(on, sample->wi)) return false;
         if (sample->density) {
-            walk.go_on(here, *sample, on,
-                       [&] { return Lanes(here.scattering(scene, path.wavelengths, on, here.back()).density.lane); });
+            walk.go_on(here, *sample, on, [&] { return here.density_back(scene, path.wavelengths, on); });
         } else {
             walk.go_on_through_dirac(here, *sample, here.squared_index_ratio(scene, path.wavelengths, on));
             if (!here.is_framed_alike(scene, path.wavelengths, on)) walk.far = Lanes();  // no light path comes this way
@@ -235,4 +232,5 @@ std::unique_ptr<Integrator> make_bidirectional_power(Scene const& scene, RenderP
     check_light_paths_possible(scene, plan, "bidirectional-power");
     return std::make_unique<Bidirectional<PowerHeuristic>>(scene, plan);
 }
+
 }  // namespace iride

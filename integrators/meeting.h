@@ -53,6 +53,10 @@ class Meeting {
         std::optional<Surroundings> const in = beside(scene, viewer);
         return evaluate(Interaction(scene, turned, viewer, wavelengths, in ? &*in : nullptr), viewer, wi);
     }
+    // That with which a path from w would have gone back.
+    Lanes density_back(Scene const& scene, Wavelengths const& wavelengths, Direction const& w) const {
+        return Lanes(scattering(scene, wavelengths, w, back_).density.lane);
+    }
     // What a path along w is in.
     std::optional<Surroundings> beside(Scene const& scene, Direction const& w) const {
         std::optional<Surroundings> in = in_;

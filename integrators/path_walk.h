@@ -23,8 +23,7 @@ struct Rivalry : OtherSide<BesideLightPaths> {
                  Direction const& on, Lanes const& reach) {
         passed = 0;
         if (sample.density) {
-            go_on(at.cosine(on), sample, reach,
-                  [&] { return Lanes(at.scattering(scene, wavelengths, on, at.back()).density.lane); });
+            go_on(at.cosine(on), sample, reach, [&] { return at.density_back(scene, wavelengths, on); });
         } else {
             go_on_through_dirac(at.cosine(at.back()), sample, at.squared_index_ratio(scene, wavelengths, on));
             if (!at.is_framed_alike(scene, wavelengths, on)) far = Lanes();  // no light path comes this way

@@ -6,7 +6,9 @@
 #include <array>
 #include <cmath>
 
+#include "film/compare.h"
 #include "film/film.h"
+#include "integrators/around.h"
 
 namespace iride {
 
@@ -50,8 +52,7 @@ class Pairs {
         constexpr double places = side * side, paths = places * rounds;
         apart /= paths;
         between = between / (places * (rounds - 1)) - apart / 2;
-        constexpr double black = 0.01;  // that of relMSE
-        Eigen::Array3d const measure = (sum / paths).square() + black;
+        Eigen::Array3d const measure = (sum / paths).square() + relmse_floor;
         return {(apart / measure).mean(), (between / measure).mean(), rays / (2 * paths)};
     }
 
@@ -86,12 +87,9 @@ Image<Pilot> spread(Image<Pilot> const& found) {
     for (int y = 0; y < found.height; ++y)
         for (int x = 0; x < found.width; ++x) {
             Pilot sum;
-            int count = 0;
-            for (int v = std::max(0, y - 1); v <= std::min(found.height - 1, y + 1); ++v)
-                for (int u = std::max(0, x - 1); u <= std::min(found.width - 1, x + 1); ++u, ++count) {
-                    Pilot const& p = found.at(u, v);
-                    sum.apart += p.apart, sum.shared += p.shared, sum.rays += p.rays;
-                }
+            int const count = for_each_around(found, x, y, 1, [&](Pilot const& p) {
+                sum.apart += p.apart, sum.shared += p.shared, sum.rays += p.rays;
+            });
             out.at(x, y) = {std::max(found.at(x, y).apart, sum.apart / count), std::max(0.0, sum.shared / count),
                             sum.rays / count};
         }

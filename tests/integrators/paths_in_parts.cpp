@@ -9,7 +9,8 @@ using namespace iride::test;
 namespace {
 
 std::string const gold = R"({ "type": "conductor", "ior": "Au", "roughness": 0.1 })",
-                  glass = R"({ "type": "dielectric", "ior": { "pairs": [[300, 1.7], [900, 1.4]] } })";
+                  glass = R"({ "type": "dielectric", "ior": { "pairs": [[300, 1.7], [900, 1.4]] } })",
+                  fog = R"({ "type": "dielectric", "ior": 1, "scattering_per_m": 1.5 })";
 
 std::shared_ptr<Scene> lit(std::string const& body, std::string const& film = "") {
     auto const text = scene_text(view, R"("shapes": [)" + floor_quad + "," + lamp + "," + sphere(body) + "]", film);
@@ -41,6 +42,7 @@ Splits learnt(int width, int height, int most, Noise&& noise) {
 TEST_CASE("parts bring what whole paths bring: a caustic, glass, fog", "[law]") {
     check_parts(gold, "path:splits=8");
     check_parts(glass, "path:splits=8");
+    check_parts(fog, "path:splits=8");
     check_parts(gold, "caustic-path:splits=8,light_paths=0.3");
     check_parts(glass, "caustic-path:splits=4");
     check_parts(gold, "caustic-path:splits=8", R"(, "filter": "gaussian")");
