@@ -43,8 +43,8 @@ constexpr Word expanded_at_zero(Word x) {
 
 // Point `index` of the pixel with reversed Morton number `pixel`, of four sequences. Seeds as for scrambled_sobol(),
 // the same for all pixels; order: of each sequence's order of pixels, twice the same four words.
-inline SobolWords pixel_sobol(std::uint32_t index, std::uint32_t pixel, SobolWords shuffle, SobolWords order,
-                              SobolWords scramble) {
+[[gnu::always_inline]] inline SobolWords pixel_sobol(std::uint32_t index, std::uint32_t pixel, SobolWords shuffle,
+                                                     SobolWords order, SobolWords scramble) {
     SobolWords digits = scramble_reversed(SobolWords{} + pixel, order);
     digits ^= (digits >> 1) & 0x55555555u & sobol_is_y;  // a + b t = (a + b) + b (t + 1)
     SobolWords const reversed = shuffled_sobol(index, shuffle) ^ expanded_at_zero(digits);

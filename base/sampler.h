@@ -53,7 +53,7 @@ class Sampler {
     void begin_vertex(std::uint32_t vertex) { begin_block(block_of(vertex)); }
     // The same, and use up the block: its pairs become the members of `decisions`, four Sample2, in one store.
     template <class Decisions>
-    void begin_vertex(std::uint32_t vertex, Decisions& decisions) {
+    [[gnu::always_inline]] void begin_vertex(std::uint32_t vertex, Decisions& decisions) {
         static_assert(sizeof(Decisions) == sobol_points * sizeof(Sample2));
         block_ = block_of(vertex);
         used_ = sobol_points;
@@ -84,7 +84,7 @@ class Sampler {
         number_ = numbers_of_block(block);
     }
     // x of the block's four pairs, then y.
-    Numbers numbers_of_block(std::uint32_t block) const {
+    [[gnu::always_inline, gnu::flatten]] Numbers numbers_of_block(std::uint32_t block) const {
         bool const by_index = kind_ != SamplerKind::independent;
         std::uint64_t const base =
             by_index ? mix_bits(key_ + 0x9e3779b97f4a7c15ull * (block + 1ull)) : hash_words(key_, sample_, block);

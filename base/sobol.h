@@ -71,13 +71,13 @@ inline constexpr SobolWords sobol_is_y{0, 0, 0, 0, ~0u, ~0u, ~0u, ~0u};
 
 // Point `index` of four shuffled sequences, reversed and not yet scrambled. shuffle: seed of each sequence's order
 // (twice the same four words), in which every aligned block of 2^k indices stays a block.
-inline SobolWords shuffled_sobol(std::uint32_t index, SobolWords shuffle) {
+[[gnu::always_inline]] inline SobolWords shuffled_sobol(std::uint32_t index, SobolWords shuffle) {
     SobolWords const i = reverse_bits(scramble_reversed(SobolWords{} + reverse_bits(index), shuffle));
     return (i & ~sobol_is_y) | (multiply_by_pascal(i) & sobol_is_y);
 }
 
 // The same as fixed point numbers of 2^-32. scramble: a seed for each coordinate.
-inline SobolWords scrambled_sobol(std::uint32_t index, SobolWords shuffle, SobolWords scramble) {
+[[gnu::always_inline]] inline SobolWords scrambled_sobol(std::uint32_t index, SobolWords shuffle, SobolWords scramble) {
     return reverse_bits(scramble_reversed(shuffled_sobol(index, shuffle), scramble));
 }
 
@@ -93,7 +93,7 @@ constexpr Word even_bits(Word x) {
 
 // Progressive jittered points, seeds as above: of every aligned block of 4^k indices one lies in each of the 4^k equal
 // squares, and anywhere in it. The shuffled index, reversed, is the Morton number of the square. [Christensen 2018]
-inline SobolWords jittered(std::uint32_t index, SobolWords shuffle, SobolWords scramble) {
+[[gnu::always_inline]] inline SobolWords jittered(std::uint32_t index, SobolWords shuffle, SobolWords scramble) {
     SobolWords const i = scramble_reversed(SobolWords{} + reverse_bits(index), shuffle);  // reversed: first digit first
     SobolWords const square = (even_bits(i >> 1) & ~sobol_is_y) | (even_bits(i) & sobol_is_y);
     return reverse_bits(scramble_reversed(reverse_bits(square << 16), scramble));

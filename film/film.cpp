@@ -56,7 +56,7 @@ Film::Response Film::response(double nm) const {
                     0};
 }
 
-Xyz Film::colour_of(Wavelengths const& wavelengths, Power const& power) const {
+[[gnu::always_inline]] inline Xyz Film::colour_of(Wavelengths const& wavelengths, Power const& power) const {
     Response total{};
     for (int i = 0; i < lane_count; ++i) {
         if (exact_observer_) {

@@ -28,8 +28,8 @@ struct Interaction {
     Direction wo;  // local
 
     // `surroundings`: what the path is in; null if every surface knows what lies before it.
-    Interaction(Scene const& scene, Hit const& hit, Direction const& to_viewer, Wavelengths const& wavelengths,
-                Surroundings const* surroundings = nullptr)
+    [[gnu::always_inline]] Interaction(Scene const& scene, Hit const& hit, Direction const& to_viewer,
+                                       Wavelengths const& wavelengths, Surroundings const* surroundings = nullptr)
         : Interaction(scene.material(hit.shape->material), hit, to_viewer, wavelengths, surroundings) {}
 
     // Whether wi (world) leaves on the side of the surface that the local wi says: a shading normal may disagree with
@@ -46,8 +46,8 @@ struct Interaction {
         Medium const& outside = surroundings->in_front_of(*body, to_viewer.dot(hit.point.geometric_normal) > 0);
         return material.at_boundary(hit.point, wavelengths, outside.n.at(wavelengths));
     }
-    Interaction(Material const& material, Hit const& hit, Direction const& to_viewer, Wavelengths const& wavelengths,
-                Surroundings const* surroundings)
+    [[gnu::always_inline]] Interaction(Material const& material, Hit const& hit, Direction const& to_viewer,
+                                       Wavelengths const& wavelengths, Surroundings const* surroundings)
         : bsdf(closure(material, hit, to_viewer, wavelengths, surroundings)),
           geometric_normal(hit.point.geometric_normal) {
         float cosine = to_viewer.dot(geometric_normal);

@@ -47,7 +47,7 @@ struct RoughMetal {
 
     BsdfEvaluation evaluate(Direction const& wo, Direction const& wi) const {
         if (wo.z() <= edge_on || wi.z() <= edge_on) return {};
-        Direction const h = (wo + wi).normalized();
+        Direction const h = unit(wo + wi);
         Parts const p = parts(wo, wi, h, facets.lambda(wo, h), facets.lambda(wi, h));
         Lanes const F = fresnel(std::min(1.0f, wi.dot(h)));
         return {BsdfValue((F * p.once + multiple_fresnel * p.often).lane), LaneDensity((p.once + p.often) * wi.z())};
@@ -57,14 +57,14 @@ struct RoughMetal {
         if (wo.z() <= edge_on) return std::nullopt;
         Sample3 rest = u;
         Direction h = facets.visible_normal(wo, rest);
-        Direction wi = (2 * wo.dot(h) * h - wo).normalized();
+        Direction wi = unit(2 * wo.dot(h) * h - wo);
         float lambda_o = facets.lambda(wo, h), lambda_i = facets.lambda(wi, h);
         float const kept = wi.z() > edge_on ? (1 + lambda_o) / (1 + facets.joint(lambda_o, lambda_i)) : 0;
         if (rest.lobe >= kept) {
             if (!loss) return std::nullopt;
             wi = loss->sample({(rest.lobe - kept) / (1 - kept), further_numbers(u).x});
             if (wi.z() <= edge_on) return std::nullopt;
-            h = (wo + wi).normalized();
+            h = unit(wo + wi);
             lambda_o = facets.lambda(wo, h), lambda_i = facets.lambda(wi, h);
         }
         Parts const p = parts(wo, wi, h, lambda_o, lambda_i);

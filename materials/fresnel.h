@@ -100,7 +100,7 @@ FresnelAmplitudes<Real> fresnel_amplitudes(WaveMedium<Real> const& near, WaveMed
 }
 
 // All lanes at once. One loop, compiled to SIMD instructions if all that it calls is part of it. [dimensionless]
-[[gnu::flatten]] inline Lanes fresnel_unpolarised(float cosine, Lanes eta, Lanes kappa) {
+[[gnu::flatten, gnu::always_inline]] inline Lanes fresnel_unpolarised(float cosine, Lanes eta, Lanes kappa) {
     Lanes result;
     for (int i = 0; i < lane_count; ++i) result.lane[i] = fresnel(cosine, eta.lane[i], kappa.lane[i]).unpolarised();
     return result;

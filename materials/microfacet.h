@@ -31,13 +31,13 @@ struct Ggx {
     Ggx(float ax, float ay) : alpha_x(ax), alpha_y(ay) {}
 
     // [1/sr]. From the components of h: no 1 - cos^2, so precise for small alpha.
-    PerSteradian distribution(Direction const& h) const {
+    [[gnu::always_inline]] PerSteradian distribution(Direction const& h) const {
         float const product = alpha_x * alpha_y;
         float const sum = square(product * h.z()) + square(alpha_y * h.x()) + square(alpha_x * h.y());
         return PerSteradian(product / (pi * square(sum / product)));
     }
 
-    float lambda(Direction const& w) const {
+    [[gnu::always_inline]] float lambda(Direction const& w) const {
         constexpr float steepest = 1e30f;  // keeps the quotient below finite for w in the surface
         float const slope2 = std::min(steepest, (square(alpha_x * w.x()) + square(alpha_y * w.y())) / square(w.z()));
         return slope2 / (2 * (std::sqrt(1 + slope2) + 1));  // (sqrt(1 + s) - 1) / 2 without cancellation
@@ -47,20 +47,20 @@ struct Ggx {
 
     // Stretch to the hemisphere, where the visible half vectors fill a spherical cap, sample the cap uniformly, and
     // stretch back. [Dupuy 2023]
-    Direction visible_normal(Direction const& w, Sample3 const& u) const {
-        Direction const stretched = Vector(alpha_x * w.x(), alpha_y * w.y(), w.z()).normalized();
+    [[gnu::always_inline]] Direction visible_normal(Direction const& w, Sample3 const& u) const {
+        Direction const stretched = unit({alpha_x * w.x(), alpha_y * w.y(), w.z()});
         float const z = (1 - u.direction.y) * (1 + stretched.z()) - stretched.z();
         float const r = std::sqrt(std::clamp(1 - z * z, 0.0f, 1.0f));
         auto const [sine, cosine] = sine_cosine_of_turns(u.direction.x);
         Vector const h = Vector(r * cosine, r * sine, z) + stretched;
-        return Vector(alpha_x * h.x(), alpha_y * h.y(), std::max(h.z(), least_height)).normalized();
+        return unit({alpha_x * h.x(), alpha_y * h.y(), std::max(h.z(), least_height)});
     }
 
     // Of density D(h) h.z.
     Direction normal(Sample2 u) const {
         float const r = std::sqrt(u.y / (1 - u.y));
         auto const [sine, cosine] = sine_cosine_of_turns(u.x);
-        return Vector(alpha_x * r * cosine, alpha_y * r * sine, 1).normalized();
+        return unit({alpha_x * r * cosine, alpha_y * r * sine, 1});
     }
 
   private:

@@ -88,12 +88,12 @@ struct RoughDielectric {
         bool const reflected = rest.lobe < F;
         rest.lobe = std::min(reflected ? rest.lobe / F : (rest.lobe - F) / (1 - F), one_minus_epsilon);
         if (reflected) {
-            wi = (2 * cosine * h - wo).normalized();
+            wi = unit(2 * cosine * h - wo);
             float const lambda_o = facets.lambda(wo, h);
             return wi.z() > edge_on ? (1 + lambda_o) / (1 + facets.joint(lambda_o, facets.lambda(wi, h))) : 0;
         }
         float const relative = 1 / eta, sine2 = (1 - square(cosine)) * square(relative);
-        wi = ((relative * cosine - std::sqrt(std::max(0.0f, 1 - sine2))) * h - relative * wo).normalized();
+        wi = unit((relative * cosine - std::sqrt(std::max(0.0f, 1 - sine2))) * h - relative * wo);
         return wi.z() < -edge_on ? 1 / (1 + facets.lambda(wi, h)) : 0;
     }
 
@@ -112,7 +112,7 @@ struct RoughDielectric {
     }
 
     Lanes reflected(Lanes const& eta, Direction const& wo, Direction const& wi) const {
-        Direction const h = (wo + wi).normalized();
+        Direction const h = unit(wo + wi);
         float const joint = facets.joint(facets.lambda(wo, h), facets.lambda(wi, h));
         return fresnel_unpolarised(std::min(1.0f, wo.dot(h)), eta, Lanes(0)) *
                (facets.distribution(h).value / (4 * wo.z() * (1 + joint)));

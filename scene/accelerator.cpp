@@ -242,7 +242,7 @@ struct Accelerator::Implementation {
     }
 
     // What Embree found at `distance` along the ray of a query, as a point of a surface.
-    void describe(ClosestQuery const& query, float distance, RTCHit const& embree_hit) const {
+    [[gnu::always_inline]] void describe(ClosestQuery const& query, float distance, RTCHit const& embree_hit) const {
         Ray const& ray = *query.ray;
         Hit& hit = *query.hit;
         hit.distance = distance;
@@ -355,10 +355,11 @@ Accelerator::~Accelerator() = default;
 Accelerator::Accelerator(Accelerator&&) noexcept = default;
 
 std::optional<Hit> Accelerator::closest(Ray const& ray, RayStatistics& statistics) const {
-    Hit hit;
-    ClosestQuery query{&ray, &hit};
+    std::optional<Hit> hit(std::in_place);
+    ClosestQuery query{&ray, &*hit};
     closest({&query, 1}, Coherence::none, statistics);
-    return query.found ? std::optional(hit) : std::nullopt;
+    if (!query.found) hit.reset();
+    return hit;
 }
 
 void Accelerator::closest(std::span<ClosestQuery> queries, Coherence coherence, RayStatistics& statistics) const {

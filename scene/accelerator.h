@@ -96,7 +96,7 @@ std::uint64_t processor_ticks();
 // point's size, away (a point computed from barycentrics errs by 3 to 20). A ray from there neither hits nor skips its
 // own surface. [Wächter 2019]
 inline constexpr float usual_size = 1e-4f;  // m: points near the origin are as uncertain as if they were there
-inline Vector off_surface(SurfacePoint const& point, Direction const& direction) {
+[[gnu::always_inline]] inline Vector off_surface(SurfacePoint const& point, Direction const& direction) {
     float const largest = std::max(point.position.cwiseAbs().maxCoeff(), point.size > 0 ? point.size : usual_size);
     float const offset = 64 * std::numeric_limits<float>::epsilon() * largest;
     float const side = direction.dot(point.geometric_normal) >= 0 ? offset : -offset;
@@ -104,7 +104,7 @@ inline Vector off_surface(SurfacePoint const& point, Direction const& direction)
 }
 
 // A ray leaving `point` along `direction`.
-inline Ray spawn_ray(SurfacePoint const& point, Direction const& direction) {
+[[gnu::always_inline]] inline Ray spawn_ray(SurfacePoint const& point, Direction const& direction) {
     return {off_surface(point, direction), direction};
 }
 
@@ -113,7 +113,8 @@ inline Ray shadow_ray(Vector const& from, Direction const& direction, float dist
     constexpr float shortening = 1e-4f;  // relative: keeps the light's own surface out
     return {from, direction, 0, distance * (1 - shortening)};
 }
-inline Ray spawn_shadow_ray(SurfacePoint const& point, Direction const& direction, float distance) {
+[[gnu::always_inline]] inline Ray spawn_shadow_ray(SurfacePoint const& point, Direction const& direction,
+                                                   float distance) {
     return shadow_ray(off_surface(point, direction), direction, distance);
 }
 

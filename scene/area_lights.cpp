@@ -211,7 +211,7 @@ class RectangleLight final : public AreaLight {
                 rectangle_.normal};
     }
     // At most eight requests, side by side in registers.
-    void answer_eight(std::span<LightRequest> requests) const {
+    [[gnu::flatten]] void answer_eight(std::span<LightRequest> requests) const {
         Real8 x{}, y{}, z{}, u{}, v{};
         for (std::size_t i = 0; i < requests.size(); ++i) {
             LightRequest const& r = requests[i];

@@ -29,7 +29,7 @@ inline void set_plain(SurfacePoint& point, Vector const& position, Direction con
 inline constexpr float off_edges = 4 * std::numeric_limits<float>::epsilon();
 
 inline void locate(Sphere const& s, Vector const& on_ray, HitCoordinates const&, SurfacePoint& point) {
-    Direction const n = (on_ray - s.centre).normalized();
+    Direction const n = unit(on_ray - s.centre);
     set_plain(point, s.centre + s.radius * n, n);
     point.size = s.radius;
 }
@@ -55,11 +55,11 @@ inline void locate(MeshShape const& m, Vector const&, HitCoordinates const& hit,
     float const inwards = std::min(1.0f, (1 - off_edges) / (u + v));
     u *= inwards, v *= inwards;
     float const w = 1 - u - v;
-    Direction const n = (b - a).cross(c - a).normalized();
+    Direction const n = unit((b - a).cross(c - a));
     set_plain(point, w * a + u * b + v * c, n);
     if (m.smooth && !m.mesh->normal.empty()) {
         auto const& N = m.mesh->normal;
-        point.normal = (w * N[t[0]] + u * N[t[1]] + v * N[t[2]]).normalized();
+        point.normal = unit(w * N[t[0]] + u * N[t[1]] + v * N[t[2]]);
         if (point.normal.dot(n) < 0) point.normal = -point.normal;  // the winding decides which side is the front
     }
 }
