@@ -15,15 +15,19 @@ class AimedLightPaths {
     AimedLightPaths(Scene const& scene, RenderPlan const& plan, AimedEmission emission, float share)
         : context_(scene, plan, plan.light_selection, share), emission_(std::move(emission)) {}
 
-    // The light path that goes with a camera path: its splats.
-    void follow(Scene const& scene, CameraPath& path, Splits const& splits, RayStatistics& statistics) const {
-        walk_from_light<BesideLightPaths>(
-            scene, context_, emission_, path, statistics, [](LightStart const&, Sample2) {},
-            [&](LightVertex<BesideLightPaths> const& here, Flux const& flux, Sample2 lens) {
-                auto const sent = send_to_camera(scene, context_, path.wavelengths, here, flux, lens, true, splits);
-                if (sent && !scene.accelerator->occluded(sent->shadow_ray, statistics))
-                    path.splats.push_back(sent->splat);
-            });
+    // The light paths that go with camera paths: their splats.
+    void follow(Scene const& scene, std::span<CameraPath> paths, Splits const& splits,
+                RayStatistics& statistics) const {
+        Sightings sightings;
+        for (CameraPath& path : paths)
+            walk_from_light<BesideLightPaths>(
+                scene, context_, emission_, path, statistics, [](LightStart const&, Sample2) {},
+                [&](LightVertex<BesideLightPaths> const& here, Flux const& flux, Sample2 lens) {
+                    sightings.add(path,
+                                  send_to_camera(scene, context_, path.wavelengths, here, flux, lens, true, splits),
+                                  scene, statistics);
+                });
+        sightings.trace(scene, statistics);
     }
 
     // How often light paths show the place where a camera's ray ends, over how often parts of camera paths do and

@@ -39,6 +39,7 @@ class Bidirectional final : public Integrator {
 
     void follow(Scene const& scene, std::span<CameraPath> paths, RayStatistics& statistics) const override {
         Work work;
+        Sightings sightings;
         for (CameraPath& path : paths) {
             work.vertices.clear();
             work.shadowed.clear();
@@ -47,13 +48,13 @@ class Bidirectional final : public Integrator {
                 [&](LightVertex<Heuristic> const& here, Flux const& flux, Sample2 lens) {
                     work.flux = flux;
                     work.vertices.push_back(here);
-                    auto const sent = send_to_camera(scene, context_, path.wavelengths, here, flux, lens, true);
-                    if (sent && !scene.accelerator->occluded(sent->shadow_ray, statistics))
-                        path.splats.push_back(sent->splat);
+                    sightings.add(path, send_to_camera(scene, context_, path.wavelengths, here, flux, lens, true),
+                                  scene, statistics);
                 });
             walk_from_camera(scene, path, work, statistics);
             path.radiance += work.shadowed.traced(scene, statistics);
         }
+        sightings.trace(scene, statistics);
     }
     bool splats() const override { return true; }
 

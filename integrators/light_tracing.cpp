@@ -17,10 +17,10 @@ class LightTracing final : public Integrator {
         : context_(scene, plan), remarks_(std::move(remarks)) {}
 
     void follow(Scene const& scene, std::span<CameraPath> paths, RayStatistics& statistics) const override {
+        Sightings sightings;
         for (CameraPath& path : paths) {
             auto const show = [&](std::optional<SentToCamera> const& sent) {
-                if (sent && !scene.accelerator->occluded(sent->shadow_ray, statistics))
-                    path.splats.push_back(sent->splat);
+                sightings.add(path, sent, scene, statistics);
             };
             walk_from_light<BalanceHeuristic>(
                 scene, context_, LampEmission{}, path, statistics,
@@ -29,6 +29,7 @@ class LightTracing final : public Integrator {
                     show(send_to_camera(scene, context_, path.wavelengths, here, flux, lens, false));
                 });
         }
+        sightings.trace(scene, statistics);
     }
     bool splats() const override { return true; }
     std::vector<std::string> remarks() const override { return remarks_; }

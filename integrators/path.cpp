@@ -44,8 +44,7 @@ class Path final : public Integrator {
 
     void follow(Scene const& scene, std::span<CameraPath> paths, RayStatistics& statistics) const override {
         follow_from_camera(scene, paths, statistics);
-        if constexpr (Lit)
-            for (CameraPath& path : paths) light_paths_.follow(scene, path, splits_, statistics);
+        if constexpr (Lit) light_paths_.follow(scene, paths, splits_, statistics);
     }
 
   private:
