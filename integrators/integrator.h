@@ -28,8 +28,8 @@ class Integrator {
     virtual ~Integrator() = default;
     // Called before each pass, by one thread, for what its paths share: a function of seed and samples alone.
     virtual void prepare(Scene const&, SamplePass const&, RayStatistics&) {}
-    // No pass crosses a multiple of this many samples.
-    virtual int samples_together() const { return std::numeric_limits<int>::max(); }
+    // How many samples, from this one on, one pass may have.
+    virtual int samples_alike(std::uint32_t /*first*/) const { return std::numeric_limits<int>::max(); }
     // Follow at most batch_size paths, each on its own: what a path brings does not depend on those beside it.
     virtual void follow(Scene const& scene, std::span<CameraPath> paths, RayStatistics& statistics) const = 0;
     // Whether a light path goes with each camera path, and leaves splats.

@@ -36,10 +36,17 @@ class Path final : public Integrator {
 
     std::vector<std::string> remarks() const override { return known_.remarks; }
     bool splats() const override { return Lit; }
-    void split(Scene const& scene, RenderPlan const& plan, int most) {
-        splits_ = learn_splits(scene, plan, most, [&](std::span<CameraPath> paths, RayStatistics& statistics) {
-            follow_from_camera(scene, paths, statistics);
-        });
+    void split(Scene const& scene, RenderPlan const& plan, int most) { pilot_.emplace(scene, plan, most); }
+    int samples_alike(std::uint32_t first) const override {
+        return pilot_ ? pilot_->samples_alike(first) : Integrator::samples_alike(first);
+    }
+    void prepare(Scene const& scene, SamplePass const& pass, RayStatistics& statistics) override {
+        if (!pilot_ || !pilot_->is_due(pass.first)) return;
+        splits_ = {};
+        splits_ = pilot_->learn(
+            scene, pass.first,
+            [&](std::span<CameraPath> paths, RayStatistics& of_paths) { follow_from_camera(scene, paths, of_paths); },
+            statistics);
     }
 
     void follow(Scene const& scene, std::span<CameraPath> paths, RayStatistics& statistics) const override {
@@ -433,6 +440,7 @@ class Path final : public Integrator {
 
     [[no_unique_address]] LightPaths light_paths_;
     KnownIndirect known_;
+    std::optional<SplitPilot> pilot_;  // absent: no path is split
     Splits splits_;
     LightSelector selector_;
     int max_bounces_;

@@ -159,14 +159,15 @@ class Loop {
 
 // Passes double, so that a time or an error is met closely and the overhead stays small; without either, and with
 // progress shown, sixteenths of the whole.
-int next_pass(RenderSettings const& s, int done, int together, std::optional<double> seconds_per_sample) {
+int next_pass(RenderSettings const& s, int done, Integrator const& integrator,
+              std::optional<double> seconds_per_sample) {
     bool const open_ended = s.seconds || s.stop_at;
     int const wanted = open_ended ? std::max(1, done) : std::max(4, s.spp / 16);
     double const in_time = open_ended || !std::isfinite(s.pass_seconds) ? wanted
                            : seconds_per_sample ? std::max(1.0, s.pass_seconds / *seconds_per_sample)
                                                 : 1;
-    int const alone = (static_cast<int>(s.first_sample) + done) % together;
-    return std::min({s.spp - done, in_time < wanted ? static_cast<int>(in_time) : wanted, together - alone});
+    int const alike = integrator.samples_alike(s.first_sample + static_cast<std::uint32_t>(done));
+    return std::min({s.spp - done, in_time < wanted ? static_cast<int>(in_time) : wanted, alike});
 }
 
 // Samples that every pixel has.
@@ -214,8 +215,7 @@ RenderReport render(Scene const& scene, RenderPlan const& plan, Integrator& inte
     while (!is_done(settings, film) && !loop.stopped()) {
         std::optional<double> per_sample;
         if (report.spp > before) per_sample = seconds_since(start) / (report.spp - before);
-        int const pass =
-            settings.goals ? 1 : next_pass(settings, report.spp, integrator.samples_together(), per_sample);
+        int const pass = settings.goals ? 1 : next_pass(settings, report.spp, integrator, per_sample);
         auto const first = static_cast<std::uint32_t>(report.spp), last = static_cast<std::uint32_t>(report.spp + pass);
         arena.execute([&] {
             integrator.prepare(scene, {settings.seed, settings.first_sample + first, settings.first_sample + last},

@@ -38,7 +38,25 @@ class Splits {
 // Follows paths that are not split.
 using FollowPaths = std::function<void(std::span<CameraPath>, RayStatistics&)>;
 
-// At most `most` parts, powers of two. A function of scene and plan alone.
-Splits learn_splits(Scene const& scene, RenderPlan const& plan, int most, FollowPaths const& follow);
+// Runs pilots, the more thorough the more samples there are: each costs about a sixteenth of those before its next.
+class SplitPilot {
+  public:
+    // At most `most` parts, powers of two.
+    SplitPilot(Scene const& scene, RenderPlan const& plan, int most);
+
+    // How many samples of a pixel, from `first` on, are split alike.
+    int samples_alike(std::uint32_t first) const;
+    // Whether those from `first` on want other splits than the latest found.
+    bool is_due(std::uint32_t first) const { return stage_of(first) != latest_; }
+    // A function of scene, plan and stage alone.
+    Splits learn(Scene const& scene, std::uint32_t first, FollowPaths const& follow, RayStatistics& statistics);
+
+  private:
+    static int stage_of(std::uint32_t sample);
+
+    PathStarter starter_;
+    int most_;
+    int latest_ = -1;
+};
 
 }  // namespace iride

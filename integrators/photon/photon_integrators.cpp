@@ -30,7 +30,9 @@ class PhotonIntegrator final : public Integrator {
     void prepare(Scene const& scene, SamplePass const& pass, RayStatistics& statistics) override {
         photons_.prepare(scene, pass, statistics);
     }
-    int samples_together() const override { return together_; }
+    int samples_alike(std::uint32_t first) const override {
+        return together_ - static_cast<int>(first % static_cast<std::uint32_t>(together_));
+    }
     bool shares_light_paths() const override { return true; }
 
     void follow(Scene const& scene, std::span<CameraPath> paths, RayStatistics& statistics) const override {
