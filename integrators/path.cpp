@@ -82,8 +82,8 @@ class Path final : public Integrator {
     }
 
     // The ends of the paths' rays: those that remain alive are at vertex `bounce`.
-    void reach_vertex(Scene const& scene, std::span<CameraPath> paths, Walks& walks, Alive& alive, int bounce,
-                      Exchange& between, RayStatistics& statistics) const {
+    [[gnu::flatten]] void reach_vertex(Scene const& scene, std::span<CameraPath> paths, Walks& walks, Alive& alive,
+                                       int bounce, Exchange& between, RayStatistics& statistics) const {
         alive.for_each([&](std::size_t i) {
             paths[i].sampler.begin_vertex(static_cast<std::uint32_t>(bounce), walks[i].numbers);
         });
@@ -399,7 +399,7 @@ class Path final : public Integrator {
 
     // Make the surface's closure, weigh the lamp's sample by it and choose where the path goes on; false if it ends
     // here.
-    bool scatter(Scene const& scene, CameraPath& path, Walk& walk, Shadows& shadows) const {
+    [[gnu::flatten]] bool scatter(Scene const& scene, CameraPath& path, Walk& walk, Shadows& shadows) const {
         if (walk.is_afloat()) return scatter_afloat(path, walk, shadows);
         Met const met = meeting(scene, path, walk);
         Interaction const& here = seen(met);
