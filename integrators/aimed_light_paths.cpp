@@ -16,9 +16,9 @@ AimedLightPaths light_paths_asked_for(Scene const& scene, RenderPlan const& plan
                          fmt::format("'{}' cannot render this scene: no lamp of a place shines at a mirror or a glass; "
                                      "'path' can",
                                      integrator));
-    constexpr double usual_share = 0.5;
-    double const share = options.number("light_paths", {.least = 0, .most = 1, .least_excluded = true}, usual_share);
-    return AimedLightPaths(scene, plan, std::move(aimed), static_cast<float>(share));
+    double const share = options.number("light_paths", {.least = 0, .most = 1, .least_excluded = true}, 0);
+    return AimedLightPaths(scene, plan, std::move(aimed),
+                           share > 0 ? std::optional(static_cast<float>(share)) : std::nullopt);
 }
 
 }  // namespace iride

@@ -11,9 +11,25 @@ using BesideLightPaths = WithoutJoins<BalanceHeuristic>;
 
 class AimedLightPaths {
   public:
-    // `share`: of the camera paths that one goes with.
-    AimedLightPaths(Scene const& scene, RenderPlan const& plan, AimedEmission emission, float share)
-        : context_(scene, plan, plan.light_selection, share), emission_(std::move(emission)) {}
+    // `share`: of the camera paths that one goes with; absent: the usual one, or what a pilot of splits finds best.
+    AimedLightPaths(Scene const& scene, RenderPlan const& plan, AimedEmission emission, std::optional<float> share)
+        : context_(scene, plan, plan.light_selection, share.value_or(usual_share)),
+          emission_(std::move(emission)),
+          share_is_free_(!share) {}
+
+    // For a pilot, which looks at the usual share whatever the latest found.
+    LightPathsBeside in_pilot(Scene const& scene) {
+        if (!share_is_free_) return {};
+        context_.set_share(usual_share);
+        return {[&](std::span<CameraPath> paths, Splits const& splits, RayStatistics& statistics) {
+                    follow(scene, paths, splits, statistics);
+                },
+                usual_share};
+    }
+    // What it found, if anything.
+    void set_share(std::optional<float> best) {
+        if (best) context_.set_share(*best);
+    }
 
     // The light paths that go with camera paths: their splats.
     void follow(Scene const& scene, std::span<CameraPath> paths, Splits const& splits,
@@ -56,8 +72,10 @@ class AimedLightPaths {
     }
 
   private:
+    static constexpr float usual_share = 0.5f;
     TwoWayContext context_;
     AimedEmission emission_;
+    bool share_is_free_;
 };
 
 // Option `light_paths`: their number for each camera path. Throws InputError for a scene that has nothing to aim at.

@@ -14,7 +14,7 @@ namespace iride {
 
 namespace {
 
-constexpr int usual_splits = 8;
+constexpr int usual_splits = 16;
 
 bool is_one_of(std::string const& type, std::span<char const* const> types) {
     return std::ranges::any_of(types, [&](char const* t) { return type == t; });

@@ -21,6 +21,7 @@ struct TwoWayContext {
     LightSelector selector;  // of the camera paths
     float share;             // of the camera paths that a light path goes with
     float light_paths;       // for each camera path of a pixel: their share of the number of pixels
+    float pixels;
     int max_bounces;
 
     TwoWayContext(Scene const& scene, RenderPlan const& plan, LightSelection selection = LightSelection::power,
@@ -29,9 +30,14 @@ struct TwoWayContext {
           ball{scene.centre(), scene.radius()},
           lamps_in(scene, plan),
           selector(scene.lights, selection),
-          share(share_of_paths),
-          light_paths(share * static_cast<float>(scene.film.width) * static_cast<float>(scene.film.height)),
-          max_bounces(plan.max_bounces.value_or(longest_path)) {}
+          pixels(static_cast<float>(scene.film.width) * static_cast<float>(scene.film.height)),
+          max_bounces(plan.max_bounces.value_or(longest_path)) {
+        set_share(share_of_paths);
+    }
+    void set_share(float of_paths) {
+        share = of_paths;
+        light_paths = share * pixels;
+    }
 
     // With which a camera path that meets `hit` from the side of `wi` asks a light.
     float chosen(Scene const& scene, Hit const& hit, Direction const& wi, int light) const {

@@ -31,8 +31,8 @@ class Path final : public Integrator {
           max_bounces_(plan.max_bounces.value_or(longest_path)),
           light_sampling_(plan.light_sampling),
           environment_(plan.environment),
-          camera_in_(plan.camera_in),
-          ray_cones_(plan.ray_cones) {}
+          ray_cones_(plan.ray_cones),
+          camera_in_(plan.camera_in) {}
 
     std::vector<std::string> remarks() const override { return known_.remarks; }
     bool splats() const override { return Lit; }
@@ -43,10 +43,12 @@ class Path final : public Integrator {
     void prepare(Scene const& scene, SamplePass const& pass, RayStatistics& statistics) override {
         if (!pilot_ || !pilot_->is_due(pass.first)) return;
         splits_ = {};
-        splits_ = pilot_->learn(
-            scene, pass.first,
-            [&](std::span<CameraPath> paths, RayStatistics& of_paths) { follow_from_camera(scene, paths, of_paths); },
-            statistics);
+        LightPathsBeside beside;
+        if constexpr (Lit) beside = light_paths_.in_pilot(scene);
+        auto const camera = std::bind_front(&Path::follow_from_camera, this, std::cref(scene));
+        LearntSplits learnt = pilot_->learn(scene, pass.first, camera, beside, statistics);
+        splits_ = std::move(learnt.splits);
+        if constexpr (Lit) light_paths_.set_share(learnt.light_paths);
     }
 
     void follow(Scene const& scene, std::span<CameraPath> paths, RayStatistics& statistics) const override {
@@ -444,9 +446,8 @@ class Path final : public Integrator {
     Splits splits_;
     LightSelector selector_;
     int max_bounces_;
-    bool light_sampling_, environment_;
+    bool light_sampling_, environment_, ray_cones_;
     std::optional<Surroundings> camera_in_;  // absent: to be found for each path
-    bool ray_cones_;
 };
 
 template <class PathType>

@@ -4,10 +4,13 @@
 //   v = E[(a - b)^2] / 2 over the parts a, b of one path, relative to the squared mean colour [as relMSE]
 // Then k ~ sqrt(v / c), c what a part costs [rays], with the factor for which time x error is least [Neyman 1934]: as
 // adaptive sampling, but every pixel has the same number of samples, and as the pilot's paths are not in the picture it
-// stays unbiased.                                                                        [Bolin 1997] [Rath 2022]
+// stays unbiased. Where light paths go with camera paths, beside those in parts they bring a variance u and cost c,
+// each of one a sample: beside time T and error E of the parts, (T + s c) (E + u / s) is least for a share s of
+//   s = sqrt(u T / (c E))                                                                  [Bolin 1997] [Rath 2022]
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "film/image.h"
 #include "integrators/camera_path.h"
@@ -38,6 +41,17 @@ class Splits {
 // Follows paths that are not split.
 using FollowPaths = std::function<void(std::span<CameraPath>, RayStatistics&)>;
 
+// The light paths that go with a share of camera paths that are split; none if `follow` is empty.
+struct LightPathsBeside {
+    std::function<void(std::span<CameraPath>, Splits const&, RayStatistics&)> follow;
+    float share = 0;
+};
+
+struct LearntSplits {
+    Splits splits;
+    std::optional<float> light_paths;  // the share of camera paths that they should go with
+};
+
 // Runs pilots, the more thorough the more samples there are: each costs about a sixteenth of those before its next.
 class SplitPilot {
   public:
@@ -49,7 +63,8 @@ class SplitPilot {
     // Whether those from `first` on want other splits than the latest found.
     bool is_due(std::uint32_t first) const { return stage_of(first) != latest_; }
     // A function of scene, plan and stage alone.
-    Splits learn(Scene const& scene, std::uint32_t first, FollowPaths const& follow, RayStatistics& statistics);
+    LearntSplits learn(Scene const& scene, std::uint32_t first, FollowPaths const& follow,
+                       LightPathsBeside const& beside, RayStatistics& statistics);
 
   private:
     static int stage_of(std::uint32_t sample);

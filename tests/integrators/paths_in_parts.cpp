@@ -38,7 +38,7 @@ Splits learnt(int width, int height, int most, Noise&& noise, std::uint32_t samp
             ++rays.closest_rays;
         }
     };
-    return SplitPilot(*scene, make_plan(*scene), most).learn(*scene, sample, follow, all);
+    return SplitPilot(*scene, make_plan(*scene), most).learn(*scene, sample, follow, {}, all).splits;
 }
 
 }  // namespace
@@ -69,6 +69,52 @@ TEST_CASE("paths are split by the noise of what follows their first vertex", "[l
     CHECK(learnt(64, 32, 1, [](CameraPath const&, float u) { return u; }).none());
 }
 
+namespace {
+
+// Camera paths with a noise, and beside them light paths that bring `light` to every pixel, each to one, for `rays`.
+float share_beside(double light, int rays, float share_in_pilot) {
+    auto const scene = scene_from(scene_text(view, R"("shapes": [)" + floor_quad + "," + lamp + "]"));
+    scene->film.width = scene->film.height = 64;
+    double const pixels = 64.0 * 64.0;
+    auto const camera = [](std::span<CameraPath> paths, RayStatistics& done) {
+        for (CameraPath& path : paths) {
+            path.sampler.begin_vertex(0);
+            path.radiance = Radiance(1 + path.sampler.next() - 0.5f);
+            ++done.closest_rays;
+        }
+    };
+    auto const beside = [&](std::span<CameraPath> paths, Splits const&, RayStatistics& done) {
+        for (CameraPath& path : paths) {
+            path.sampler.begin_vertex(1);
+            if (path.sampler.next() >= share_in_pilot) continue;
+            Sample2 const at = path.sampler.next2();
+            path.splats.push_back({64 * at.x, 64 * at.y,
+                                   Radiance(static_cast<float>(light * pixels / static_cast<double>(share_in_pilot)))});
+            done.closest_rays += static_cast<std::uint64_t>(rays);
+        }
+    };
+    RayStatistics all;
+    auto const learnt =
+        SplitPilot(*scene, make_plan(*scene), 1).learn(*scene, 16, camera, {beside, share_in_pilot}, all);
+    return learnt.light_paths.value();
+}
+
+}  // namespace
+
+// s = sqrt(u T / (c E)). Fails if the share that the pilot looks at counts, or if noise or cost go in otherwise.
+TEST_CASE("light paths are as many as their noise and cost make best", "[law]") {
+    float const one = share_beside(0.15, 2, 0.5f);
+    // Two numbers of one path are in two halves of [0, 1): E = <(a - b)^2> / 2 = 7/48, T = 1 ray, c = 1.5 x 2 rays.
+    double const u = square(0.15) / (square(1.15) + 0.01), E = 7.0 / 48 / 1.01;
+    REQUIRE(one == Approx(std::sqrt(u / (1.5 * 2 * E))).epsilon(0.03));
+    CHECK(share_beside(0.15, 2, 0.25f) == Approx(one).epsilon(0.03));
+    CHECK(share_beside(0.15, 8, 0.5f) == Approx(one / 2).epsilon(0.03));
+    // Relative to (1 + light)^2 + .01.
+    CHECK(share_beside(0.3, 2, 0.5f) == Approx(2 * one * (1.15 / 1.3)).epsilon(0.03));
+    CHECK(share_beside(1e-3, 2, 0.5f) == Approx(0.1));
+    CHECK(share_beside(10, 1, 0.5f) == Approx(1));
+}
+
 // Fails if the first samples wait for a pilot that costs more than they do, or if two passes would split one otherwise.
 TEST_CASE("the more samples, the more a pilot asks", "[law]") {
     auto const scene = lit(gold);
@@ -84,7 +130,7 @@ TEST_CASE("the more samples, the more a pilot asks", "[law]") {
         RayStatistics rays;
         CHECK(pilot.is_due(first));
         auto const follow = [&](std::span<CameraPath> some, RayStatistics&) { paths += static_cast<int>(some.size()); };
-        pilot.learn(*scene, first, follow, rays);
+        pilot.learn(*scene, first, follow, {}, rays);
         CHECK_FALSE(pilot.is_due(first + 1));
         CHECK(paths <= pixels * std::max(1, static_cast<int>(first)) / 8);
     }
