@@ -20,7 +20,7 @@ class AimedLightPaths {
     // For a pilot, which looks at the usual share whatever the latest found.
     LightPathsBeside in_pilot(Scene const& scene) {
         if (!share_is_free_) return {};
-        context_.set_share(usual_share);
+        context_.share = usual_share;
         return {[&](std::span<CameraPath> paths, Splits const& splits, RayStatistics& statistics) {
                     follow(scene, paths, splits, statistics);
                 },
@@ -28,7 +28,7 @@ class AimedLightPaths {
     }
     // What it found, if anything.
     void set_share(std::optional<float> best) {
-        if (best) context_.set_share(*best);
+        if (best) context_.share = *best;
     }
 
     // The light paths that go with camera paths: their splats.
@@ -49,7 +49,7 @@ class AimedLightPaths {
     // How often light paths show the place where a camera's ray ends, over how often parts of camera paths do and
     // the cosine there.
     float per_camera_path(CameraPath const& path, Splits const& splits, float distance) const {
-        return context_.light_paths /
+        return context_.light_paths() /
                (static_cast<float>(splits.at(path.x, path.y)) * context_.camera.density(path.ray, distance));
     }
     // The density with which they start where a ray meets a lamp, back along it, over the cosine there.

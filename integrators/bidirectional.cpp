@@ -89,7 +89,7 @@ class Bidirectional final : public Integrator {
                 return;
             }
             if (bounce == 0)
-                walk.near = Lanes(joined ? Heuristic::of(context_.light_paths /
+                walk.near = Lanes(joined ? Heuristic::of(context_.light_paths() /
                                                          (context_.camera.density(path.ray, way.length) * arriving))
                                          : 0);
             else

@@ -20,7 +20,6 @@ struct TwoWayContext {
     LightSurroundings lamps_in;
     LightSelector selector;  // of the camera paths
     float share;             // of the camera paths that a light path goes with
-    float light_paths;       // for each camera path of a pixel: their share of the number of pixels
     float pixels;
     int max_bounces;
 
@@ -30,14 +29,12 @@ struct TwoWayContext {
           ball{scene.centre(), scene.radius()},
           lamps_in(scene, plan),
           selector(scene.lights, selection),
+          share(share_of_paths),
           pixels(static_cast<float>(scene.film.width) * static_cast<float>(scene.film.height)),
-          max_bounces(plan.max_bounces.value_or(longest_path)) {
-        set_share(share_of_paths);
-    }
-    void set_share(float of_paths) {
-        share = of_paths;
-        light_paths = share * pixels;
-    }
+          max_bounces(plan.max_bounces.value_or(longest_path)) {}
+
+    // For each camera path of a pixel.
+    float light_paths() const { return share * pixels; }
 
     // With which a camera path that meets `hit` from the side of `wi` asks a light.
     float chosen(Scene const& scene, Hit const& hit, Direction const& wi, int light) const {
@@ -233,7 +230,7 @@ std::optional<SentToCamera> send_to_camera(Scene const& scene, TwoWayContext con
     Direction const& viewer = sight->towards;
     Scattering const s = at.scattering(scene, wavelengths, viewer, at.back());
     if (is_black(s.value)) return std::nullopt;
-    float const density = sight->density * static_cast<float>(splits.at(sight->x, sight->y)) / context.light_paths;
+    float const density = sight->density * static_cast<float>(splits.at(sight->x, sight->y)) / context.light_paths();
     Lanes techniques = Heuristic::of(here.path.state.reach);
     if (weighed)
         techniques += here.path.others(Lanes(density * at.cosine(viewer)), [&] { return Lanes(s.density.lane); });

@@ -25,7 +25,8 @@ struct Stage {
     int rounds;  // paths of two parts at each place
     int most;    // parts of a path: the first samples must not take long
 };
-constexpr std::array<Stage, 3> stages{{{0, 16, 2, 8}, {4, 16, 8, 64}, {16, 8, 8, 64}}};
+constexpr int any_number = std::numeric_limits<int>::max();
+constexpr std::array<Stage, 3> stages{{{0, 16, 2, 8}, {4, 16, 8, any_number}, {16, 8, 8, any_number}}};
 constexpr std::uint64_t pilot_seed = 0x5911;
 constexpr double first_part = 0.15;  // of a path's time: up to its first vertex (measured)
 // Of the noise that parts of a path share, from its place and wavelengths: both are stratified, it soon falls faster.
@@ -190,7 +191,7 @@ Sighted sighted_by(Scene const& scene, Blocks const& blocks, LightPathsBeside co
             });
     });
     for (std::size_t row = 1; row < of_row.size(); ++row) of_row[0].add(of_row[row]);
-    return of_row[0];
+    return std::move(of_row[0]);
 }
 
 // Few paths see little: what one block finds its neighbours may have missed.

@@ -26,7 +26,7 @@ void check_parts(std::string const& body, char const* integrator, std::string co
 
 // A picture whose paths bring 1 give or take what noise(x) draws from numbers of their first vertex.
 template <class Noise>
-Splits learnt(int width, int height, int most, Noise&& noise, std::uint32_t sample = 16) {
+LearntSplits learnt_of(int width, int height, int most, Noise&& noise, LightPathsBeside const& beside = {}) {
     auto const scene = scene_from(scene_text(view, R"("shapes": [)" + floor_quad + "," + lamp + "]"));
     scene->film.width = width;
     scene->film.height = height;
@@ -38,7 +38,11 @@ Splits learnt(int width, int height, int most, Noise&& noise, std::uint32_t samp
             ++rays.closest_rays;
         }
     };
-    return SplitPilot(*scene, make_plan(*scene), most).learn(*scene, sample, follow, {}, all).splits;
+    return SplitPilot(*scene, make_plan(*scene), most).learn(*scene, 16, follow, beside, all);
+}
+template <class Noise>
+Splits learnt(int width, int height, int most, Noise&& noise) {
+    return learnt_of(width, height, most, noise).splits;
 }
 
 }  // namespace
@@ -73,17 +77,8 @@ namespace {
 
 // Camera paths with a noise, and beside them light paths that bring `light` to every pixel, each to one, for `rays`.
 float share_beside(double light, int rays, float share_in_pilot) {
-    auto const scene = scene_from(scene_text(view, R"("shapes": [)" + floor_quad + "," + lamp + "]"));
-    scene->film.width = scene->film.height = 64;
     double const pixels = 64.0 * 64.0;
-    auto const camera = [](std::span<CameraPath> paths, RayStatistics& done) {
-        for (CameraPath& path : paths) {
-            path.sampler.begin_vertex(0);
-            path.radiance = Radiance(1 + path.sampler.next() - 0.5f);
-            ++done.closest_rays;
-        }
-    };
-    auto const beside = [&](std::span<CameraPath> paths, Splits const&, RayStatistics& done) {
+    auto const follow = [&](std::span<CameraPath> paths, Splits const&, RayStatistics& done) {
         for (CameraPath& path : paths) {
             path.sampler.begin_vertex(1);
             if (path.sampler.next() >= share_in_pilot) continue;
@@ -93,10 +88,8 @@ float share_beside(double light, int rays, float share_in_pilot) {
             done.closest_rays += static_cast<std::uint64_t>(rays);
         }
     };
-    RayStatistics all;
-    auto const learnt =
-        SplitPilot(*scene, make_plan(*scene), 1).learn(*scene, 16, camera, {beside, share_in_pilot}, all);
-    return learnt.light_paths.value();
+    auto const noise = [](CameraPath const&, float u) { return u; };
+    return learnt_of(64, 64, 1, noise, {follow, share_in_pilot}).light_paths.value();
 }
 
 }  // namespace
