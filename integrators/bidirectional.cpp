@@ -111,6 +111,9 @@ class Bidirectional final : public Integrator {
         }
     }
 
+    // With which a vertex asks this light: by power alone, wherever it is.
+    float asked(int light) const { return context_.selector.probability({}, light); }
+
     // s = 0: `near` and `far` as they are before the last ray's end.
     Radiance from_lamp(Scene const& scene, CameraPath const& path, Vector const& from, Hit const& hit,
                        Subpath<Heuristic> const& walk, int bounce) const {
@@ -121,9 +124,9 @@ class Bidirectional final : public Integrator {
         Radiance const Le = light.emitted(hit.point, travel, path.wavelengths);
         if (is_black(Le)) return {};
         Lanes techniques = Heuristic::of(walk.state.reach);
-        float const chosen = scene.lights.probability(index), cosine = travel.dot(hit.point.geometric_normal);
-        if (chosen > 0 && bounce > 0) {
-            float const sampled = chosen * light.density(from, hit.point, hit.primitive).value;
+        if (bounce > 0) {
+            float const cosine = travel.dot(hit.point.geometric_normal);
+            float const sampled = asked(index) * light.density(from, hit.point, hit.primitive).value;
             float const emitted = emission_.density(scene, context_.ball, index, hit.point.position, travel, cosine);
             techniques += Heuristic::of(sampled) * walk.near + Heuristic::of(emitted / std::abs(cosine)) * walk.far;
         }
@@ -134,12 +137,10 @@ class Bidirectional final : public Integrator {
         Direction const wi = path.ray.direction;
         for (int e : scene.lights.environments()) {
             Light const& light = scene.lights.light(e);
-            float const chosen = scene.lights.probability(e);
-            Lanes techniques = Heuristic::of(walk.state.reach);
-            if (chosen > 0)
-                techniques +=
-                    Heuristic::of(chosen * light.arriving_density(wi).value) * walk.near +
-                    Heuristic::of(emission_.density(scene, context_.ball, e, path.ray.origin, -wi, 1)) * walk.far;
+            Lanes const techniques =
+                Heuristic::of(walk.state.reach) +
+                Heuristic::of(asked(e) * light.arriving_density(wi).value) * walk.near +
+                Heuristic::of(emission_.density(scene, context_.ball, e, path.ray.origin, -wi, 1)) * walk.far;
             L += walk.state.weight * light.arriving(wi, path.wavelengths) * (1 / float(mean(techniques)));
         }
         return L;
@@ -148,9 +149,9 @@ class Bidirectional final : public Integrator {
     // s = 1.
     void sample_light(Scene const& scene, CameraPath const& path, Meeting const& here, Subpath<Heuristic> const& walk,
                       Sample3 u, Shadowed& shadowed) const {
-        if (!scene.lights.has_power()) return;
-        auto const choice = scene.lights.choose(u.lobe);
-        Light const& light = scene.lights.light(choice.index);
+        auto const choice = context_.selector.choose({}, u.lobe);
+        if (choice.light < 0) return;
+        Light const& light = scene.lights.light(choice.light);
         auto const sample = light.sample(here.point().position, path.wavelengths, u.direction);
         if (!sample) return;
         Scattering const s = here.scattering(scene, path.wavelengths, here.back(), sample->wi);
@@ -159,7 +160,7 @@ class Bidirectional final : public Integrator {
         // The density over area here of the light's own paths, over that of this sample.
         float p_back =
             here.cosine(sample->wi) / (chosen * sample->cosine) *
-            emission_.density(scene, context_.ball, choice.index, here.point().position + sample->distance * sample->wi,
+            emission_.density(scene, context_.ball, choice.light, here.point().position + sample->distance * sample->wi,
                               -sample->wi, sample->cosine);
         if (light.extent() == LightExtent::point) p_back /= square(sample->distance);
         Lanes techniques = Heuristic::of(walk.state.reach);

@@ -28,7 +28,7 @@ struct TwoWayContext {
         : camera(scene.camera, scene.film.width, scene.film.height),
           ball{scene.centre(), scene.radius()},
           lamps_in(scene, plan),
-          selector(scene.lights, selection),
+          selector(scene.lights, selection, plan.uniform_light),
           share(share_of_paths),
           pixels(static_cast<float>(scene.film.width) * static_cast<float>(scene.film.height)),
           max_bounces(plan.max_bounces.value_or(longest_path)) {}

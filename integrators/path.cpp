@@ -27,9 +27,9 @@ class Path final : public Integrator {
     Path(Scene const& scene, RenderPlan const& plan, KnownIndirect known, LightPaths light_paths = {})
         : light_paths_(std::move(light_paths)),
           known_(std::move(known)),
-          selector_(scene.lights, plan.light_selection),
+          selector_(scene.lights, plan.light_selection, plan.uniform_light),
           max_bounces_(plan.max_bounces.value_or(longest_path)),
-          light_sampling_(plan.light_sampling),
+          light_sampling_(plan.light_sampling && !selector_.none()),
           environment_(plan.environment),
           ray_cones_(plan.ray_cones),
           camera_in_(plan.camera_in) {}

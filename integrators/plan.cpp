@@ -92,17 +92,49 @@ void decide_scattering(Scene const& scene, RenderPlan& plan) {
                                             : "free flights, lamps sampled where they end, in: " + where);
 }
 
+// Whether light that is the same from everywhere is asked for samples. Where flights end by chance these do better:
+// they are weighed by how much gets through.
+void decide_uniform_light(Scene const& scene, RenderPlan& plan) {
+    bool const uniform =
+        std::ranges::any_of(scene.lights.environments(), [&](int e) { return scene.lights.light(e).is_uniform(); });
+    if (uniform && !plan.scattering) plan.uniform_light = UniformLight::left_to_scattering;
+    decided(plan, "uniform light", uniform && plan.scattering,
+            !uniform          ? "no light is the same from everywhere"
+            : plan.scattering ? "asked like a lamp: media let through what flights that end by chance miss"
+                              : "found by the directions of scattering alone: every light sample goes to a lamp");
+}
+
+struct AskedLights {
+    int count = 0, with_place = 0;
+};
+AskedLights asked_lights(Scene const& scene, UniformLight uniform) {
+    AskedLights asked;
+    for (int i = 0; i < static_cast<int>(scene.lights.size()); ++i) {
+        if (!is_asked(scene.lights, i, uniform)) continue;
+        ++asked.count;
+        asked.with_place += scene.lights.light(i).bounds().has_value() ? 1 : 0;
+    }
+    return asked;
+}
+
+void decide_light_sampling(Scene const& scene, RenderPlan& plan) {
+    std::string const finite = names_of(scene, [](NamedMaterial const& m) { return m.material->traits.has_density; });
+    bool const lamps = scene.lights.has_power();
+    plan.light_sampling = lamps && (!finite.empty() || plan.scattering);
+    int const asked = asked_lights(scene, plan.uniform_light).count;
+    decided(plan, "light sampling", plan.light_sampling && asked > 0,
+            !lamps                 ? "no light has any power"
+            : !plan.light_sampling ? "every surface is a mirror, glass or black: lamps are found by scattering alone"
+            : asked == 0           ? "no light but what is the same from everywhere"
+                                   : fmt::format("{} of {} lights", asked, scene.lights.size()));
+}
+
 // Which light a surface asks. A tree looks at where the surface is; with few lights that costs more than it saves.
 void decide_light_selection(Scene const& scene, RenderPlan& plan) {
-    int bright = 0, finite = 0;
-    for (int i = 0; i < static_cast<int>(scene.lights.size()); ++i) {
-        if (!(scene.lights.probability(i) > 0)) continue;
-        ++bright;
-        finite += scene.lights.light(i).bounds().has_value() ? 1 : 0;
-    }
+    auto const [count, finite] = asked_lights(scene, plan.uniform_light);
     constexpr int worth_a_tree = 2;
     bool const tree = finite >= worth_a_tree;
-    bool const choice = plan.light_sampling && bright > 1;
+    bool const choice = plan.light_sampling && count > 1;
     plan.light_selection = scene.render.light_selection.value_or(tree ? LightSelection::tree : LightSelection::power);
     char const* const name = light_selection_names[static_cast<std::size_t>(plan.light_selection)];
     decided(plan, "light selection", choice,
@@ -170,14 +202,8 @@ RenderPlan make_plan(Scene const& scene) {
                                                      "ends its path"
                                                    : "rays that leave the scene bring light");
 
-    std::string const finite = names_of(scene, [](NamedMaterial const& m) { return m.material->traits.has_density; });
-    bool const lamps = scene.lights.has_power();
-    plan.light_sampling =
-        decide("light sampling", lamps && (!finite.empty() || plan.scattering),
-               !lamps                               ? "no light has any power"
-               : finite.empty() && !plan.scattering ? "every surface is a mirror, glass or black: lamps are found by "
-                                                      "scattering alone"
-                                                    : fmt::format("{} lights", scene.lights.size()));
+    decide_uniform_light(scene, plan);
+    decide_light_sampling(scene, plan);
     decide_light_selection(scene, plan);
 
     bool const smooth = std::ranges::any_of(scene.shapes, [](Shape const& s) {

@@ -27,6 +27,7 @@ struct RenderPlan {
     bool whole_paths = false;     // a layer wants the same paths again
     std::optional<int> max_bounces;
     LightSelection light_selection = LightSelection::power;
+    UniformLight uniform_light = UniformLight::asked;
     std::optional<Surroundings> camera_in;  // absent: not the same for all camera rays
 
     struct Decision {

@@ -22,6 +22,10 @@ bool carry_media(Scene& scene, RenderPlan& plan) {
 // Without power in any light there is none to choose.
 bool sample_lights(Scene& scene, RenderPlan& plan) { return scene.lights.has_power() && carry(plan.light_sampling); }
 
+bool ask_uniform_light(Scene&, RenderPlan& plan) {
+    return std::exchange(plan.uniform_light, UniformLight::asked) != UniformLight::asked;
+}
+
 bool parametrise(std::vector<Shape>& shapes) {
     bool changed = false;
     for (Shape& s : shapes) changed = !std::exchange(s.parametrised, true) || changed;
@@ -40,13 +44,14 @@ bool sample_whole_range(Scene& scene, RenderPlan& plan) {
 
 bool draw_for_observer(Scene&, RenderPlan& plan) { return !std::exchange(plan.observer_alone, true); }
 
-constexpr std::array<PlanSwitch, 8> table{{
+constexpr std::array<PlanSwitch, 9> table{{
     {"dispersion", "the reach of each lane is carried", true,
      [](Scene&, RenderPlan& plan) { return carry(plan.dispersion); }},
     {"media", "what a path is in is carried (absorption, nested bodies)", true, carry_media},
     {"environment", "rays that leave the scene ask for light from infinity", true,
      [](Scene&, RenderPlan& plan) { return carry(plan.environment); }},
     {"light sampling", "lights are sampled though no surface can use them", true, sample_lights},
+    {"uniform light", "light that is the same from everywhere is sampled like a lamp", false, ask_uniform_light},
     {"uv and tangents", "every hit gets uv, derivatives and tangent", true, parametrise_all},
     {"ray cones", "the diameter of a path's bundle is carried", true,
      [](Scene&, RenderPlan& plan) { return carry(plan.ray_cones); }},

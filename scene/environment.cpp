@@ -40,6 +40,7 @@ class ConstantEnvironment final : public Environment {
     }
     PerSteradian arriving_density(Direction const&) const override { return uniform_sphere_density; }
     double power(double scene_radius) const override { return luminance_ * square(2 * pi_double * scene_radius); }
+    bool is_uniform() const override { return true; }
 
   private:
     Emission radiance_;

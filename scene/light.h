@@ -64,6 +64,8 @@ class Light {
     // Luminous power up to a common factor, for choosing among lights; `scene_radius` in metres.
     virtual double power(double scene_radius) const = 0;
     virtual bool is_environment() const { return false; }
+    // Whether it has the same radiance from everywhere.
+    virtual bool is_uniform() const { return false; }
 
     // What a tree of lamps wants to know; absent for what comes from infinity.
     virtual std::optional<LightBounds> bounds() const { return std::nullopt; }

@@ -3,13 +3,15 @@
 
 namespace iride {
 
-LightSelector::LightSelector(LightSet const& lights, LightSelection selection)
-    : lights_(lights), selection_(selection), place_(lights.size(), -1) {
+LightSelector::LightSelector(LightSet const& lights, LightSelection selection, UniformLight uniform)
+    : selection_(selection), place_(lights.size(), -1) {
     std::vector<LightBounds> bounds;
-    std::vector<int> with_power;
+    std::vector<int> asked;
+    std::vector<double> power(lights.size());
     for (int i = 0; i < static_cast<int>(lights.size()); ++i) {
-        if (!(lights.probability(i) > 0)) continue;
-        with_power.push_back(i);
+        if (!is_asked(lights, i, uniform)) continue;
+        asked.push_back(i);
+        power[static_cast<std::size_t>(i)] = static_cast<double>(lights.probability(i));
         auto const b = selection == LightSelection::tree ? lights.light(i).bounds() : std::nullopt;
         if (!b) {
             bright_.push_back(i);
@@ -19,15 +21,17 @@ LightSelector::LightSelector(LightSet const& lights, LightSelection selection)
         lamp_.push_back(i);
         bounds.push_back(*b);
     }
-    if (with_power.size() == 1) only_ = with_power.front();
+    if (!asked.empty()) by_power_ = DiscreteDistribution(power);
+    if (asked.size() == 1) only_ = asked.front();
     if (selection != LightSelection::tree || only_ >= 0) return;
     tree_ = LightTree(bounds);
     share_of_tree_ = tree_.empty() ? 0 : 1 / static_cast<float>(bright_.size() + 1);
 }
 
 LightSelector::Choice LightSelector::choose_among_many(LightReceiver const& receiver, float u) const {
+    if (none()) return {-1, 0};
     if (selection_ == LightSelection::power) {
-        auto const choice = lights_.choose(u);
+        auto const choice = by_power_.sample(u);
         return {choice.index, choice.probability};
     }
     if (selection_ == LightSelection::tree && (u < share_of_tree_ || bright_.empty())) {
@@ -44,8 +48,8 @@ LightSelector::Choice LightSelector::choose_among_many(LightReceiver const& rece
 }
 
 float LightSelector::probability_among_many(LightReceiver const& receiver, int light) const {
-    if (!(lights_.probability(light) > 0)) return 0;
-    if (selection_ == LightSelection::power) return lights_.probability(light);
+    if (none() || !(by_power_.probability(light) > 0)) return 0;
+    if (selection_ == LightSelection::power) return by_power_.probability(light);
     int const lamp = place_[static_cast<std::size_t>(light)];
     if (lamp >= 0) return share_of_tree_ * tree_.probability(receiver, lamp);
     return (1 - share_of_tree_) / static_cast<float>(bright_.size());

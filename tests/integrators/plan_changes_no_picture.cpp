@@ -17,12 +17,14 @@ std::unique_ptr<Scene> small_scene(std::string const& name) {
     return scene;
 }
 
-Film rendered_without(std::vector<std::string> const& disabled, std::string const& name) {
-    auto const scene = small_scene(name);
-    RenderPlan const plan = make_plan_without(disabled, *scene);
-    Film film = make_film(*scene);
-    render(*scene, plan, *make_integrator("path", *scene, plan), {.spp = 16, .seed = 3}, film);
+Film rendered_without(std::vector<std::string> const& disabled, Scene& scene) {
+    RenderPlan const plan = make_plan_without(disabled, scene);
+    Film film = make_film(scene);
+    render(scene, plan, *make_integrator("path", scene, plan), {.spp = 16, .seed = 3}, film);
     return film;
+}
+Film rendered_without(std::vector<std::string> const& disabled, std::string const& name) {
+    return rendered_without(disabled, *small_scene(name));
 }
 
 struct Mean {
@@ -62,6 +64,18 @@ TEST_CASE("a decision of the plan that is switched off changes no picture", "[la
             }
         }
     }
+}
+
+// A ball that sees nothing but the sky: |cos| over its density is the same in every direction.
+TEST_CASE("under light from everywhere alike a diffuse ball has no noise but that of wavelengths", "[law]") {
+    auto const scene = test::scene_from(
+        R"({ "camera": { "eye": [0,0,-9], "target": [0,0,0], "field_deg": 2 }, "film": { "size": [8, 8] },
+             "shapes": [ { "type": "sphere", "centre": [0,0,0], "radius": 1, "material": { "type": "diffuse", "reflectance": 0.6 } } ],
+             "lights": [ { "type": "environment", "radiance": 1 } ] })");
+    Film const left = rendered_without({}, *scene), asked = rendered_without({"uniform light"}, *scene);
+    CHECK(mean_of(left).Y == Approx(0.6).epsilon(1e-3));
+    CHECK(mean_of(asked).Y == Approx(0.6).epsilon(0.03));
+    CHECK(mean_of(asked).variance > 100 * mean_of(left).variance);
 }
 
 TEST_CASE("what the scene needs cannot be switched off, and an unknown decision is refused", "[input]") {

@@ -199,6 +199,34 @@ TEST_CASE("a tree is never deeper than 64", "[unit]") {
     CHECK(LightTree(heap).choose(at_corner, 0.999999f).probability == Approx(1e-3).epsilon(0.1));
 }
 
+TEST_CASE("light that is the same from everywhere may be left to scattering, the lamps are asked as often as ever",
+          "[law]") {
+    std::string const ball =
+        R"("shapes": [ { "type": "sphere", "centre": [0,0,0], "radius": 1, "material": { "type": "black" } } ], )";
+    auto const text = [&](std::string const& sky) {
+        return R"({ "camera": { "eye": [0,0,-9], "target": [0,0,0], "field_deg": 30 }, )" + ball +
+               R"("lights": [ { "type": "point", "position": [0,1,0], "intensity": 1 }, { "type": "point", "position": [2,1,0], "intensity": 3 })" +
+               sky + "] }";
+    };
+    auto const with = test::scene_from(text(R"(, { "type": "environment", "radiance": 5 })")),
+               without = test::scene_from(text(""));
+    for (LightSelection how : {LightSelection::uniform, LightSelection::power, LightSelection::tree}) {
+        LightSelector const selector(with->lights, how, UniformLight::left_to_scattering), lamps(without->lights, how);
+        for (std::uint32_t i = 0; i < 100; ++i) {
+            LightReceiver const r = random_receiver(i);
+            float const u = numbers(i).next();
+            CHECK(selector.choose(r, u).light == lamps.choose(r, u).light);
+            CHECK(selector.probability(r, 2) == 0);
+            for (int lamp : {0, 1}) CHECK(selector.probability(r, lamp) == Approx(lamps.probability(r, lamp)));
+        }
+        CHECK(LightSelector(with->lights, how).probability({}, 2) > 0);
+    }
+    auto const sky = test::scene_from(R"({ "camera": { "eye": [0,0,-9], "target": [0,0,0], "field_deg": 30 }, )" +
+                                      ball + R"("lights": [ { "type": "environment", "radiance": 5 } ] })");
+    CHECK(LightSelector(sky->lights, LightSelection::power, UniformLight::left_to_scattering).none());
+    CHECK_FALSE(LightSelector(sky->lights, LightSelection::power).none());
+}
+
 TEST_CASE("one light is chosen for certain", "[unit]") {
     auto const scene = test::scene_from(
         R"({ "camera": { "eye": [0,0,-9], "target": [0,0,0], "field_deg": 30 },
