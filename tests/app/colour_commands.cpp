@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // iride colour spectrum, convert, difference, diagram as a script meets them: published values in JSON, and bad input
 // that ends with a message, exit code 2 and nothing on stdout.
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/picture.h"
 #include "support/files.h"
 #include "support/program.h"
 #include "support/scenes.h"
@@ -222,9 +222,10 @@ TEST_CASE("bad input of the colour commands ends with a message, exit code 2 and
 
 namespace {
 
-std::array<int, 3> pixel_of(std::vector<std::uint8_t> const& bytes, int width, int x, int y) {
-    auto const at = static_cast<std::size_t>(3 * (y * width + x));
-    return {bytes[at], bytes[at + 1], bytes[at + 2]};
+// In 0 .. 255.
+std::array<int, 3> pixel_of(Picture const& picture, int x, int y) {
+    auto const byte = [&](int channel) { return static_cast<int>(std::lround(255 * picture.at(x, y, channel))); };
+    return {byte(0), byte(1), byte(2)};
 }
 
 }  // namespace
@@ -240,13 +241,9 @@ TEST_CASE("the diagram is white outside the locus, coloured inside, and has ever
         test::run_iride("colour diagram -o " + file + " colorchecker:red " + folder.path().string() + "/m.exr");
     INFO(r.text);
     REQUIRE(r.code == 0);
-    auto const png = OIIO::ImageInput::open(file);
-    REQUIRE(png);
-    int const width = png->spec().width, height = png->spec().height;
-    std::vector<std::uint8_t> bytes(static_cast<std::size_t>(width * height * 3));
-    REQUIRE(png->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, bytes.data()));
+    Picture const png = read_picture(file, {.least_channels = 3});
     auto const at = [&](double x, double y) {
-        return pixel_of(bytes, width, static_cast<int>(130 + (x + .08) / .88 * 1496),
+        return pixel_of(png, static_cast<int>(130 + (x + .08) / .88 * 1496),
                         static_cast<int>(40 + (.9 - y) / .92 * 1564));
     };
     CHECK(at(.62, .52) == std::array{255, 255, 255});  // nothing there

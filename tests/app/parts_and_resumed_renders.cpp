@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // A picture that was interrupted, or made in parts, is the picture that was made at once.
-#include <OpenImageIO/imageio.h>
-
 #include <catch2/catch.hpp>
 #include <numeric>
 
@@ -36,13 +34,7 @@ int signalled(std::string const& arguments, std::string const& checkpoint, char 
     return test::run_command("bash -c '" + script + "'").code;
 }
 
-double channel_mean(std::string const& path, std::string const& name) {
-    auto const in = OIIO::ImageInput::open(path);
-    REQUIRE(in);
-    int const channel = in->spec().channelindex(name);
-    REQUIRE(channel >= 0);
-    std::vector<float> values(static_cast<std::size_t>(in->spec().width * in->spec().height));
-    REQUIRE(in->read_image(0, 0, channel, channel + 1, OIIO::TypeDesc::FLOAT, values.data()));
+double mean_of(std::vector<float> const& values) {
     return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
@@ -87,11 +79,15 @@ TEST_CASE("Ctrl-C ends with 130, a checkpoint, and a picture of what is finished
         signalled(render + "--checkpoint " + at("c") + " --checkpoint-every 0 -o " + at("part.exr"), at("c"), "INT");
     CHECK(code == 130);
     CHECK(test::file_count(at.folder.path()) == 2);  // and nothing temporary
-    XyzPicture const part = read_exr_as_xyz(at("part.exr"));
+    XyzPicture const part =
+        read_exr_as_xyz(at("part.exr"), [](std::string const& c) { return c.ends_with("direct.Y"); });
     CHECK(std::stoi(part.facts.at("spp")) < 400);
-    double const direct = channel_mean(at("part.exr"), "direct.Y"), rest = channel_mean(at("part.exr"), "indirect.Y");
+    REQUIRE(part.layers.channels.size() == 2);
+    double const direct = mean_of(part.layers.channels[0].second), rest = mean_of(part.layers.channels[1].second);
     CHECK(direct > rest);
-    CHECK(direct + rest == Approx(channel_mean(at("part.exr"), "Y")).epsilon(1e-5));
+    double whole = 0;
+    for (Xyz const& c : part.xyz.pixel) whole += c.Y / static_cast<double>(part.xyz.pixel.size());
+    CHECK(direct + rest == Approx(whole).epsilon(1e-5));
     CHECK(test::run_iride("merge " + at("c") + " -o " + at("of_checkpoint.exr") + " --colourspace XYZ").code == 0);
     CHECK(same_pixels(read_exr_as_xyz(at("of_checkpoint.exr")), part, 0));
 }

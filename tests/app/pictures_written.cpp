@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the program leaves on the disk: an EXR whose header and pixels other programs can trust, and a preview that is
 // the view of it.
-#include <OpenImageIO/imageio.h>
-
 #include <catch2/catch.hpp>
 
+#include "base/picture.h"
 #include "film/preview.h"
 #include "spectral/catalogue.h"
 #include "support/program.h"
@@ -17,13 +16,10 @@ namespace {
 
 // The first three channels of a picture as floats (8-bit ones as 0 .. 255), row by row.
 std::vector<float> channels_of(std::filesystem::path const& path) {
-    auto const in = OIIO::ImageInput::open(path.string());
-    REQUIRE(in);
-    std::vector<float> values(static_cast<std::size_t>(in->spec().width * in->spec().height * 3));
-    REQUIRE(in->read_image(0, 0, 0, 3, OIIO::TypeDesc::FLOAT, values.data()));
-    if (in->spec().format == OIIO::TypeDesc::UINT8)
-        for (float& v : values) v *= 255;
-    return values;
+    Picture picture = read_picture(path, {.least_channels = 3, .most_channels = 3});
+    if (picture.integers)
+        for (float& v : picture.value) v *= 255;
+    return std::move(picture.value);
 }
 
 }  // namespace
