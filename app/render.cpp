@@ -197,7 +197,7 @@ void write_report(std::filesystem::path const& path, Scene const& scene, std::st
     SampleSpread const spread = sample_spread(film);
     nlohmann::ordered_json rejected;
     for (std::size_t i = 0; i < rejection_names.size(); ++i) rejected[rejection_names[i]] = film.rejected()[i];
-    std::uint64_t const rays = r.rays.closest_rays + r.rays.shadow_rays;
+    std::uint64_t const rays = r.rays.rays();
     nlohmann::ordered_json const out{{"scene", scene.name},
                                      {"integrator", integrator},
                                      {"spp", r.spp},
@@ -215,7 +215,7 @@ void write_report(std::filesystem::path const& path, Scene const& scene, std::st
 }
 
 void print_summary(RenderReport const& r, Film const& film, std::filesystem::path const& exr) {
-    std::uint64_t const rays = r.rays.closest_rays + r.rays.shadow_rays;
+    std::uint64_t const rays = r.rays.rays();
     SampleSpread const spread = sample_spread(film);
     if (spread.min != spread.max)
         fmt::print(stderr, "samples per pixel {} .. {}, {:.1f} in the mean\n", spread.min, spread.max, spread.mean);

@@ -16,9 +16,8 @@ AimedLightPaths light_paths_asked_for(Scene const& scene, RenderPlan const& plan
                          fmt::format("'{}' cannot render this scene: no lamp of a place shines at a mirror or a glass; "
                                      "'path' can",
                                      integrator));
-    double const share = options.number("light_paths", {.least = 0, .most = 1, .least_excluded = true}, 0);
-    return AimedLightPaths(scene, plan, std::move(aimed),
-                           share > 0 ? std::optional(static_cast<float>(share)) : std::nullopt);
+    auto const share = options.number("light_paths", {.least = 0, .most = 1, .least_excluded = true});
+    return AimedLightPaths(scene, plan, std::move(aimed), share);
 }
 
 }  // namespace iride

@@ -12,8 +12,8 @@ using BesideLightPaths = WithoutJoins<BalanceHeuristic>;
 class AimedLightPaths {
   public:
     // `share`: of the camera paths that one goes with; absent: the usual one, or what a pilot of splits finds best.
-    AimedLightPaths(Scene const& scene, RenderPlan const& plan, AimedEmission emission, std::optional<float> share)
-        : context_(scene, plan, plan.light_selection, share.value_or(usual_share)),
+    AimedLightPaths(Scene const& scene, RenderPlan const& plan, AimedEmission emission, std::optional<double> share)
+        : context_(scene, plan, plan.light_selection, static_cast<float>(share.value_or(usual_share))),
           emission_(std::move(emission)),
           share_is_free_(!share) {}
 

@@ -3,6 +3,7 @@
 // their place; finish() reports them and every key that nobody asked for.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -18,8 +19,10 @@ class IntegratorOptions {
     IntegratorOptions(IntegratorOptions const&) = delete;
     IntegratorOptions& operator=(IntegratorOptions const&) = delete;
 
+    // Absent: nothing was said.
+    std::optional<double> number(std::string const& key, Limits const& limits) { return fields_.number(key, limits); }
     double number(std::string const& key, Limits const& limits, double otherwise) {
-        return fields_.number(key, limits).value_or(otherwise);
+        return number(key, limits).value_or(otherwise);
     }
     int integer(std::string const& key, int least, int most, int otherwise) {
         return fields_.integer(key, least, most).value_or(otherwise);

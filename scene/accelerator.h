@@ -58,6 +58,7 @@ struct RayStatistics {
     std::vector<RecordedRay>* recording = nullptr;  // every ray goes here if it is set
 
     void add(RayStatistics const& other);
+    std::uint64_t rays() const { return closest_rays + shadow_rays; }
 };
 
 class Accelerator {

@@ -44,7 +44,7 @@ RayRates RayRace::round() const {
     Clock::time_point const start = Clock::now();
     check(scene_.accelerator->trace_bare(rays_) <= rays_.size(), "a ray hits once");
     double const bare = static_cast<double>(rays_.size()) / seconds_since(start);
-    return {static_cast<double>(report.rays.closest_rays + report.rays.shadow_rays) / report.seconds, bare,
+    return {static_cast<double>(report.rays.rays()) / report.seconds, bare,
             static_cast<double>(report.paths) / report.seconds};
 }
 

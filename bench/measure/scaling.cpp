@@ -212,8 +212,7 @@ Rows measure_triangles(Settings const& settings) {
         double const tree_bytes = resident_bytes() - before;
         Rate const r = rate_of(*scene, 16, settings.threads, settings.rounds);
         auto row = rate_row({{"triangles", triangles}}, r);
-        row["rays_per_second"] =
-            static_cast<double>(r.last.rays.closest_rays + r.last.rays.shadow_rays) / r.last.seconds;
+        row["rays_per_second"] = static_cast<double>(r.last.rays.rays()) / r.last.seconds;
         row["build_seconds"] = build;
         row["mesh_bytes_per_triangle"] = mesh_bytes / triangles;
         row["embree_bytes_per_triangle"] = tree_bytes / triangles;
