@@ -21,10 +21,10 @@ namespace iride {
 namespace {
 
 constexpr char const* first_words = "iride checkpoint ";  // and the format's number
-constexpr char const* format = "2";
+constexpr char const* format = "3";
 constexpr int largest_side = 1 << 16;          // pixels
 constexpr std::size_t longest_head = 1 << 16;  // bytes
-static_assert(sizeof(FilmPixel) == 9 * sizeof(double) + 4 * sizeof(std::uint32_t), "a pixel has no padding");
+static_assert(sizeof(FilmPixel) == 10 * sizeof(double) + 4 * sizeof(std::uint32_t), "a pixel has no padding");
 
 [[noreturn]] void fail(std::filesystem::path const& path, std::string const& message) {
     throw InputError({path.string()}, "", message);
@@ -268,7 +268,7 @@ std::vector<std::string> obstacles_to_merging(Checkpoint const& a, Checkpoint co
         return matters(key) && key != "seed" && key != "first sample" && key != "crop" && key != "sampler";
     });
     if (a.films.front().splats() && !(a.films.front().place() == b.films.front().place()))
-        all.push_back("light paths belong to the whole picture, and its window is another");
+        all.emplace_back("light paths belong to the whole picture, and its window is another");
     if (all.empty() && share_samples(a, b))
         all.push_back(fmt::format("both have the same samples of some pixels: seed {}, from {} and from {}",
                                   a.settings.seed, a.settings.first_sample, b.settings.first_sample));

@@ -105,6 +105,13 @@ std::optional<Plane> plane_of_counts(Film const& film, bool merged) {
     return Plane{"count", Imf::FLOAT, plane_of(film, [&](int x, int y) { return film.sample_count(x, y); }), {}};
 }
 
+// What a sample counts, in the mean.
+double mean_weight(Film const& film) {
+    double weight = 0, count = 0;
+    for (FilmPixel const& p : film.pixels()) weight += p.weight, count += p.count;
+    return count > 0 ? weight / count : 1;
+}
+
 Imf::Header header_of(Film const& film, ExrSettings const& s, OutputSpace const& space) {
     FilmPlace const& place = film.place();
     Imath::Box2i const display({0, 0}, {place.picture_width - 1, place.picture_height - 1});
@@ -142,6 +149,7 @@ Imf::Header header_of(Film const& film, ExrSettings const& s, OutputSpace const&
     if (s.parts > 1) header.insert("iride:parts", Imf::IntAttribute(s.parts));
     header.insert("iride:exposure", Imf::DoubleAttribute(s.exposure));
     header.insert("iride:spp", Imf::IntAttribute(samples_per_pixel(film)));
+    text("iride:weight", fmt::format("{}", mean_weight(film)));
     auto const rejected = film.rejected();
     for (std::size_t i = 0; i < rejected.size(); ++i)
         text(fmt::format("iride:rejected.{}", rejection_names[i]).c_str(), std::to_string(rejected[i]));

@@ -6,8 +6,9 @@
 // pixels differ in it or parts were merged; more layers on request (integrators/layers.h).
 // Attributes: chromaticities (typed), whiteLuminance [cd m^-2 of RGB (1,1,1), or of Y = 1], colorInteropID, sceneWhite
 // (x, y that was adapted to the file's white), spectralLayoutVersion and emissiveUnits when there are bands, and under
-// "iride:" version, sceneHash, scene, integrator, sampler, spp, seed, firstSample, observer, exposure, bands, adaptive,
-// parts and rejected.* counts. A film that is a part of a picture is the data window in the picture's display window.
+// "iride:" version, sceneHash, scene, integrator, sampler, spp, weight [of a sample, film/film.h], seed, firstSample,
+// observer, exposure, bands, adaptive, parts and rejected.* counts. A film that is a part of a picture is the data
+// window in the picture's display window.
 #pragma once
 
 #include <filesystem>

@@ -75,25 +75,29 @@ std::optional<Bands> bands_of(Facts const& facts, XyzPicture const& picture) {
 bool is_finite(Xyz const& c) { return std::isfinite(c.X) && std::isfinite(c.Y) && std::isfinite(c.Z); }
 
 // A pixel's sums; absent if no render gives such values.
-std::optional<FilmPixel> pixel_of(Xyz const& mean, Xyz const& variance, double count) {
+std::optional<FilmPixel> pixel_of(Xyz const& mean, Xyz const& variance, double count, double each) {
     constexpr double most = 1 << 24;
     bool const known = count < 2 || (is_finite(variance) && std::min({variance.X, variance.Y, variance.Z}) >= 0);
     if (!(count >= 0 && count <= most && count == std::floor(count)) || !is_finite(mean) || !known) return std::nullopt;
     MatrixDouble covariance = MatrixDouble::Zero();
     covariance.diagonal() = to_vector(variance);
-    return FilmPixel::of(mean, covariance, static_cast<std::uint32_t>(count));
+    return FilmPixel::of(mean, covariance, static_cast<std::uint32_t>(count), each);
 }
 
 void fill(Film& film, XyzPicture const& picture, Facts const& facts) {
     auto const of_all = static_cast<double>(facts.number<int>("spp"));
+    double const each = facts.number<double>("weight");
+    if (!(each > 0 && std::isfinite(each)))
+        facts.refuse(fmt::format("its attribute 'iride:weight' is {}, allowed: a number above 0", each));
     std::size_t const bands = picture.bands.size();
     for (std::size_t i = 0; i < film.pixels().size(); ++i) {
         double const count = picture.count.pixel.empty() ? of_all : static_cast<double>(picture.count.pixel[i]);
-        auto const pixel = pixel_of((1 / picture.exposure) * picture.xyz.pixel[i], picture.variance.pixel[i], count);
+        auto const pixel =
+            pixel_of((1 / picture.exposure) * picture.xyz.pixel[i], picture.variance.pixel[i], count, each);
         if (!pixel) facts.refuse(fmt::format("its pixel {} holds what no render gives", i));
         film.pixels()[i] = *pixel;
         for (std::size_t b = 0; b < bands; ++b)
-            film.band_sums()[i * bands + b] = count * static_cast<double>(picture.bands[b].second.pixel[i]);
+            film.band_sums()[i * bands + b] = pixel->weight * static_cast<double>(picture.bands[b].second.pixel[i]);
     }
     // The file says how many samples were rejected for which cause, not where: in pixels that miss as many.
     auto pixel = film.pixels().begin();

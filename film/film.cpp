@@ -17,10 +17,11 @@ bool is_step(SpectralFunction const& f) {
 
 }  // namespace
 
-FilmPixel FilmPixel::of(Xyz const& mean, MatrixDouble const& covariance, std::uint32_t count) {
+FilmPixel FilmPixel::of(Xyz const& mean, MatrixDouble const& covariance, std::uint32_t count, double each) {
     double const n = count;
     FilmPixel p;
     p.count = count;
+    double const w = p.weight = n * each;
     if (count == 0) return p;
     VectorDouble const m = to_vector(mean);
     for (Eigen::Index c = 0; c < 3; ++c) {
@@ -28,9 +29,9 @@ FilmPixel FilmPixel::of(Xyz const& mean, MatrixDouble const& covariance, std::ui
         auto const i = static_cast<std::size_t>(c);
         double const spread = count > 1 ? covariance(c, c) * (n - 1) : 0;
         double const together = count > 1 ? covariance(c, next) * (n - 1) : 0;
-        p.sum[i] = m[c] * n;
-        p.sum_of_squares[i] = n * (m[c] * m[c] + spread);
-        p.sum_of_products[i] = n * (m[c] * m[next] + together);
+        p.sum[i] = m[c] * w;
+        p.sum_of_squares[i] = w * (m[c] * m[c] + spread);
+        p.sum_of_products[i] = w * (m[c] * m[next] + together);
     }
     return p;
 }
@@ -70,24 +71,26 @@ Film::Response Film::response(double nm) const {
     return {component(0), component(1), component(2)};
 }
 
-void Film::add(int x, int y, Wavelengths const& wavelengths, Radiance const& radiance) {
+void Film::add(int x, int y, Wavelengths const& wavelengths, Radiance const& radiance, std::uint32_t weight) {
     FilmPixel& pixel = pixels_.at(x, y);
     Power const power = radiance / wavelengths.density;
     Xyz const colour = colour_of(wavelengths, power);
     std::array<double, 3> const value{colour.X, colour.Y, colour.Z};
+    double const w = weight;
     for (std::size_t c = 0; c < 3; ++c) {
-        pixel.sum[c] += value[c];
-        pixel.sum_of_squares[c] += value[c] * value[c];
-        pixel.sum_of_products[c] += value[c] * value[(c + 1) % 3];
+        pixel.sum[c] += w * value[c];
+        pixel.sum_of_squares[c] += w * value[c] * value[c];
+        pixel.sum_of_products[c] += w * value[c] * value[(c + 1) % 3];
     }
+    pixel.weight += w;
     ++pixel.count;
     if (!bands_) return;
     double* const sums = band_sum_.data() + band_offset(x, y);
-    for_bands(wavelengths, power, [&](int band, double v) { sums[band] += v; });
+    for_bands(wavelengths, power, [&](int band, double v) { sums[band] += w * v; });
 }
 
-void Film::splat(int x, int y, Wavelengths const& wavelengths, Radiance const& radiance) {
-    Power const power = radiance / wavelengths.density;
+void Film::splat(int x, int y, Wavelengths const& wavelengths, Radiance const& radiance, std::uint32_t weight) {
+    Power const power = radiance / wavelengths.density * static_cast<float>(weight);
     if (!is_finite(radiance) || !splats_->add(x, y, colour_of(wavelengths, power))) return splats_->reject();
     if (bands_) for_bands(wavelengths, power, [&](int band, double v) { splats_->add_to_band(x, y, band, v); });
 }
@@ -124,6 +127,7 @@ void Film::add(Film const& other) {
                 to.sum_of_products[c] += from.sum_of_products[c];
             }
             for (std::size_t c = 0; c < to.rejected.size(); ++c) to.rejected[c] += from.rejected[c];
+            to.weight += from.weight;
             to.count += from.count;
             if (!bands_) continue;
             double* const sums = band_sum_.data() + band_offset(here_x, here_y);
@@ -150,7 +154,7 @@ Film Film::half_and_half(Film const& a, Film const& b) {
             double* const sums = film.band_sum_.data() + film.band_offset(x, y);
             for (int k = 0; k < film.bands_->count; ++k) {
                 double const share = p.count == 0 || q.count == 0 ? 1 : 0.5;
-                sums[k] = share * count * (a.band(x, y, k) + b.band(x, y, k));
+                sums[k] = share * pixel.weight * (a.band(x, y, k) + b.band(x, y, k));
             }
         }
     return film;
@@ -165,17 +169,16 @@ Xyz Film::mean(int x, int y) const {
     FilmPixel const& p = pixels_.at(x, y);
     Xyz const light = splats_ ? splats_->mean(x, y) : Xyz{};
     if (p.count == 0) return light;
-    return {p.sum[0] / p.count + light.X, p.sum[1] / p.count + light.Y, p.sum[2] / p.count + light.Z};
+    return {p.sum[0] / p.weight + light.X, p.sum[1] / p.weight + light.Y, p.sum[2] / p.weight + light.Z};
 }
 
 Xyz Film::variance(int x, int y) const {
     FilmPixel const& p = pixels_.at(x, y);
     constexpr double unknown = std::numeric_limits<double>::infinity();
     if (p.count < 2) return {unknown, unknown, unknown};
-    double const n = p.count;
     auto const of = [&](std::size_t c) {
-        double const mean = p.sum[c] / n;
-        return std::max(0.0, p.sum_of_squares[c] / n - mean * mean) / (n - 1);
+        double const mean = p.sum[c] / p.weight;
+        return std::max(0.0, p.sum_of_squares[c] / p.weight - mean * mean) / (p.count - 1);
     };
     Xyz const light = splats_ ? splats_->variance(x, y) : Xyz{};
     return {of(0) + light.X, of(1) + light.Y, of(2) + light.Z};
@@ -187,20 +190,19 @@ MatrixDouble Film::covariance(int x, int y) const {
     MatrixDouble m = splats_ ? splats_->covariance(x, y) : MatrixDouble(MatrixDouble::Zero());
     m.diagonal() = to_vector(v);
     if (p.count < 2) return m;
-    double const n = p.count;
+    double const n = p.count, w = p.weight;
     for (Eigen::Index c = 0; c < 3; ++c) {
         Eigen::Index const next = (c + 1) % 3;
         auto const i = static_cast<std::size_t>(c), j = static_cast<std::size_t>(next);
-        double const camera = (p.sum_of_products[i] / n - p.sum[i] / n * (p.sum[j] / n)) / (n - 1);
+        double const camera = (p.sum_of_products[i] / w - p.sum[i] / w * (p.sum[j] / w)) / (n - 1);
         m(c, next) = m(next, c) = m(c, next) + camera;
     }
     return m;
 }
 
 double Film::band(int x, int y, int band) const {
-    std::uint32_t const count = pixels_.at(x, y).count;
-    double const light = splats_ ? splats_->band(x, y, band) : 0;
-    return (count > 0 ? band_sum_[band_offset(x, y) + static_cast<std::size_t>(band)] / count : 0) + light;
+    double const weight = pixels_.at(x, y).weight, light = splats_ ? splats_->band(x, y, band) : 0;
+    return (weight > 0 ? band_sum_[band_offset(x, y) + static_cast<std::size_t>(band)] / weight : 0) + light;
 }
 
 std::array<std::uint64_t, rejection_count> Film::rejected() const {

@@ -3,9 +3,12 @@
 // density p_i, contributes
 //   to XYZ:      L_i observer(lambda_i) / (N p_i integral of ybar)         N = number of lanes
 //   to its band: L_i / (N p_i band width)
-// so the two outputs cannot disagree, whatever the density. Pixels are means over their samples (reconstruction filters
-// are importance sampled, every sample has weight 1). The lanes of a sample share their path, so the noise of bands
-// that lie 1 / N of the sampling interval apart is correlated.
+// so the two outputs cannot disagree, whatever the density. Pixels are means over their samples, as reconstruction
+// filters are importance sampled. A sample's weight w is that of its pass, the same for all pixels: samples that an
+// integrator takes more trouble over count as that many. With W = sum w and n samples, for variances as 1 / w:
+//   mean m = sum w x / W,   variance of the mean = (sum w x^2 / W - m^2) / (n - 1)
+// The lanes of a sample share their path, so the noise of bands that lie 1 / N of the sampling interval apart is
+// correlated.
 #pragma once
 
 #include <array>
@@ -36,16 +39,18 @@ enum class Rejection { not_finite, negative, path_too_long };
 inline constexpr int rejection_count = 3;
 inline constexpr std::array<char const*, rejection_count> rejection_names{"not_finite", "negative", "path_too_long"};
 
-// What is kept of a pixel: sums over its samples, in the order in which they were taken.
+// What is kept of a pixel: weighted sums over its samples, in the order in which they were taken.
 struct FilmPixel {
     std::array<double, 3> sum{}, sum_of_squares{};  // X, Y, Z
     std::array<double, 3> sum_of_products{};        // XY, YZ, ZX
+    double weight = 0;                              // of the samples in the sums, together
     std::uint32_t count = 0;                        // of the samples in the sums
     std::array<std::uint32_t, rejection_count> rejected{};
 
     // Samples taken, the rejected ones included: the number of the pixel's next one.
     std::uint32_t taken() const { return std::accumulate(rejected.begin(), rejected.end(), count); }
-    static FilmPixel of(Xyz const& mean, MatrixDouble const& covariance, std::uint32_t count);
+    // Of samples of weight `each`.
+    static FilmPixel of(Xyz const& mean, MatrixDouble const& covariance, std::uint32_t count, double each = 1);
 };
 
 // The pixels x0 <= x < x1, y0 <= y < y1 of a picture.
@@ -67,13 +72,15 @@ class Film {
          std::optional<Bands> bands);
 
     // Add one sample to pixel (x, y). Calls for different pixels may run at the same time.
-    void add(int x, int y, Wavelengths const& wavelengths, Radiance const& radiance);
+    void add(int x, int y, Wavelengths const& wavelengths, Radiance const& radiance, std::uint32_t weight = 1);
     // Light paths add to any pixel, from any thread, once there is a layer for it; means and variances then include it.
     void add_splat_layer() {
         if (!splats_) splats_.emplace(width(), height(), bands_ ? bands_->count : 0);
     }
-    void splat(int x, int y, Wavelengths const& wavelengths, Radiance const& radiance);
-    void count_light_path() { splats_->count_path(); }
+    // With the weight of the sample that the light path goes with.
+    void splat(int x, int y, Wavelengths const& wavelengths, Radiance const& radiance, std::uint32_t weight = 1);
+    void expect_splat(int x, int y) const { splats_->expect(x, y); }
+    void count_light_path(std::uint32_t weight = 1) { splats_->count_path(weight); }
     // Count a sample that is dropped; the pixel's mean is over the samples added.
     void reject(int x, int y, Rejection cause);
     // Add the sums of another film of the same picture, wherever in it that film lies inside this one; splats, which

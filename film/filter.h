@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reconstruction filters, importance sampled: the offset of a sample from its pixel's centre is drawn from the filter
-// itself, so every sample has weight 1 and belongs to one pixel alone. [Ernst 2006]
+// itself, so no sample is weighed by it, and each belongs to one pixel alone. [Ernst 2006]
 #pragma once
 
 #include <cmath>

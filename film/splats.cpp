@@ -34,56 +34,55 @@ double Splats::Sum::total() const {
 
 Splats::Splats(int width, int height, int band_count)
     : width_(width),
-      pixel_count_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)),
       band_count_(static_cast<std::size_t>(band_count)),
-      sum_(pixel_count_),
-      sum_of_squares_(pixel_count_),
-      sum_of_products_(pixel_count_),
-      band_sum_(pixel_count_ * band_count_) {}
+      pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)),
+      band_sum_(pixels_.size() * band_count_) {}
 
 bool Splats::add(int x, int y, Xyz const& value) {
     auto const v = components(value);
-    double const share = 1 / static_cast<double>(pixel_count_);
+    double const share = 1 / pixel_count();
     for (double c : v)
         if (!(std::abs(c) * share <= largest)) return false;
+    Pixel& pixel = pixels_[index(x, y)];
     for (std::size_t c = 0; c < 3; ++c) {
-        sum_[index(x, y)][c].add(v[c] * share);
-        sum_of_squares_[index(x, y)][c].add(v[c] * share * v[c] * share);
-        sum_of_products_[index(x, y)][c].add(v[c] * share * v[(c + 1) % 3] * share);
+        pixel.sum[c].add(v[c] * share);
+        pixel.sum_of_squares[c].add(v[c] * share * v[c] * share);
+        pixel.sum_of_products[c].add(v[c] * share * v[(c + 1) % 3] * share);
     }
     return true;
 }
 
 void Splats::add_to_band(int x, int y, int band, double value) {
-    band_sum_[index(x, y) * band_count_ + static_cast<std::size_t>(band)].add(value /
-                                                                              static_cast<double>(pixel_count_));
+    band_sum_[index(x, y) * band_count_ + static_cast<std::size_t>(band)].add(value / pixel_count());
 }
 
-void Splats::count_path() { add_atomically(paths_, 1); }
+void Splats::count_path(std::uint32_t weight) {
+    std::int64_t const w = weight;
+    add_atomically(weight_, w);
+    add_atomically(squared_weight_, w * w);
+}
 void Splats::reject() { add_atomically(rejected_, 1); }
 
-double Splats::pixels_per_path() const {
-    return paths_ > 0 ? static_cast<double>(pixel_count_) / static_cast<double>(paths_) : 0;
-}
+double Splats::pixels_per_weight() const { return weight_ > 0 ? pixel_count() / static_cast<double>(weight_) : 0; }
 
 Xyz Splats::mean(int x, int y) const {
-    auto const& s = sum_[index(x, y)];
-    double const scale = pixels_per_path();
+    auto const& s = pixels_[index(x, y)].sum;
+    double const scale = pixels_per_weight();
     return {s[0].total() * scale, s[1].total() * scale, s[2].total() * scale};
 }
 
 MatrixDouble Splats::covariance(int x, int y) const {
     MatrixDouble m = MatrixDouble::Zero();
-    if (paths_ == 0) return m;
-    auto const& sum = sum_[index(x, y)];
-    double const paths = static_cast<double>(paths_), scale = pixels_per_path() * pixels_per_path();
+    if (weight_ == 0) return m;
+    auto const& [sum, sum_of_squares, sum_of_products] = pixels_[index(x, y)];
+    double const per_path = static_cast<double>(squared_weight_) / square(static_cast<double>(weight_)),
+                 scale = square(pixels_per_weight());
     for (std::size_t c = 0; c < 3; ++c) {
         std::size_t const d = (c + 1) % 3;
-        double const squares = sum_of_squares_[index(x, y)][c].total(),
-                     products = sum_of_products_[index(x, y)][c].total();
+        double const squares = sum_of_squares[c].total(), products = sum_of_products[c].total();
         auto const i = static_cast<Eigen::Index>(c), j = static_cast<Eigen::Index>(d);
-        m(i, i) = std::max(0.0, squares - sum[c].total() * sum[c].total() / paths) * scale;
-        m(i, j) = m(j, i) = (products - sum[c].total() * sum[d].total() / paths) * scale;
+        m(i, i) = std::max(0.0, squares - sum[c].total() * sum[c].total() * per_path) * scale;
+        m(i, j) = m(j, i) = (products - sum[c].total() * sum[d].total() * per_path) * scale;
     }
     return m;
 }
@@ -94,22 +93,19 @@ Xyz Splats::variance(int x, int y) const {
 }
 
 void Splats::add(Splats const& other) {
-    check(other.sum_.size() == sum_.size() && other.band_sum_.size() == band_sum_.size(),
+    check(other.pixels_.size() == pixels_.size() && other.band_sum_.size() == band_sum_.size(),
           "splats are added up of pictures of one size and one set of bands");
-    auto const add_all = [](auto& to, auto const& from) {
-        for (std::size_t i = 0; i < to.size(); ++i)
-            for (std::size_t c = 0; c < 3; ++c) to[i][c] += from[i][c];
-    };
-    add_all(sum_, other.sum_);
-    add_all(sum_of_squares_, other.sum_of_squares_);
-    add_all(sum_of_products_, other.sum_of_products_);
+    for (std::size_t i = 0; i < pixels_.size(); ++i)
+        for (auto sums : {&Pixel::sum, &Pixel::sum_of_squares, &Pixel::sum_of_products})
+            for (std::size_t c = 0; c < 3; ++c) (pixels_[i].*sums)[c] += (other.pixels_[i].*sums)[c];
     for (std::size_t i = 0; i < band_sum_.size(); ++i) band_sum_[i] += other.band_sum_[i];
-    paths_ += other.paths_;
+    weight_ += other.weight_;
+    squared_weight_ += other.squared_weight_;
     rejected_ += other.rejected_;
 }
 
 double Splats::band(int x, int y, int band) const {
-    return band_sum_[index(x, y) * band_count_ + static_cast<std::size_t>(band)].total() * pixels_per_path();
+    return band_sum_[index(x, y) * band_count_ + static_cast<std::size_t>(band)].total() * pixels_per_weight();
 }
 
 }  // namespace iride

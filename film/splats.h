@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // What light paths add to the picture, at whatever pixel they reach. Sums are integers, so the picture does not depend
 // on the order: a value v is kept as v = high 2^-12 + low 2^-44, two 64-bit counts that are added to on their own. A
-// splat is exact to 2^-45 and sums hold to 2^51. With v the splat over the number of pixels, N light paths for n pixels
-// give
-//   mean = n / N sum v,   covariance of the mean = (n / N)^2 (sum v v' - sum v sum v' / N),   v, v' of X, Y, Z
+// splat is exact to 2^-45 and sums hold to 2^51. With v the splat times the weight w of its light path (film/film.h)
+// over the number of pixels n, and W = sum w over all light paths,
+//   mean = n / W sum v,   covariance of the mean = (n / W)^2 (sum v v' - sum v sum v' sum w^2 / W^2),   v, v' of X, Y,
+//   Z
 // as if the splats of one light path to one pixel were independent of one another.
 #pragma once
 
@@ -20,10 +21,17 @@ class Splats {
   public:
     Splats(int width, int height, int band_count);
 
-    // Add to pixel (x, y); from any thread. False, and nothing is added, for a value beyond the largest.
+    // Add to pixel (x, y) what a splat brings, times its weight; from any thread. False, and nothing is added, for a
+    // value beyond the largest.
     bool add(int x, int y, Xyz const& value);
     void add_to_band(int x, int y, int band, double value);
-    void count_path();
+    // Fetch a pixel that something is soon added to: splats fall anywhere, and each would wait for memory.
+    void expect(int x, int y) const {
+        char const* const pixel = reinterpret_cast<char const*>(&pixels_[index(x, y)]);
+        constexpr std::size_t cache_line = 64;
+        for (std::size_t at = 0; at < sizeof(Pixel); at += cache_line) __builtin_prefetch(pixel + at, 1);
+    }
+    void count_path(std::uint32_t weight = 1);
     void reject();  // count a splat that is dropped
     std::uint64_t rejected() const { return static_cast<std::uint64_t>(rejected_); }
 
@@ -46,7 +54,7 @@ class Splats {
     }
     // Bytes of all blocks together.
     static std::uintmax_t size_in_file(std::uintmax_t pixels, std::uintmax_t bands) {
-        return pixels * (9 + bands) * sizeof(Sum) + 2 * sizeof(std::int64_t);
+        return pixels * (sizeof(Pixel) + bands * sizeof(Sum)) + 3 * sizeof(std::int64_t);
     }
 
     static constexpr double largest = 0x1p23;  // of a splat over the number of pixels: its square still fits
@@ -58,24 +66,28 @@ class Splats {
         void operator+=(Sum const& other) { high += other.high, low += other.low; }
         double total() const;
     };
+    struct Pixel {
+        std::array<Sum, 3> sum, sum_of_squares;  // X, Y, Z
+        std::array<Sum, 3> sum_of_products;      // XY, YZ, ZX
+    };
     std::size_t index(int x, int y) const {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
     }
-    double pixels_per_path() const;
+    double pixel_count() const { return static_cast<double>(pixels_.size()); }
+    double pixels_per_weight() const;
     template <class Self, class Use>
     static void blocks(Self& self, Use& use) {
-        for (auto* sums : {&self.sum_, &self.sum_of_squares_, &self.sum_of_products_})
-            use(sums->data(), sums->size() * sizeof(std::array<Sum, 3>));
+        use(self.pixels_.data(), self.pixels_.size() * sizeof(Pixel));
         use(self.band_sum_.data(), self.band_sum_.size() * sizeof(Sum));
-        use(&self.paths_, sizeof self.paths_);
-        use(&self.rejected_, sizeof self.rejected_);
+        for (auto* count : {&self.weight_, &self.squared_weight_, &self.rejected_}) use(count, sizeof *count);
     }
 
     int width_;
-    std::size_t pixel_count_, band_count_;
-    std::vector<std::array<Sum, 3>> sum_, sum_of_squares_, sum_of_products_;  // X, Y, Z; XY, YZ, ZX
-    std::vector<Sum> band_sum_;                                               // [pixel][band]
-    std::int64_t paths_ = 0, rejected_ = 0;
+    std::size_t band_count_;
+    std::vector<Pixel> pixels_;
+    std::vector<Sum> band_sum_;                     // [pixel][band]
+    std::int64_t weight_ = 0, squared_weight_ = 0;  // sums over the light paths
+    std::int64_t rejected_ = 0;
 };
 
 }  // namespace iride

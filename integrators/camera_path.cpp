@@ -109,7 +109,7 @@ SpectralFunction fitted_importance(SpectralFunction const& light, WavelengthRang
 
 // Relative variance of the X, Y and Z that one packet gives of a white in this light, added up; by quadrature.
 double packet_noise(WavelengthSampler const& sampler, SpectralFunction const& light) {
-    constexpr int steps = 4096;
+    constexpr int steps = 1024;
     Eigen::Array3d sum(0, 0, 0), squares(0, 0, 0);
     for (int i = 0; i < steps; ++i) {
         Wavelengths const w = sampler.sample((static_cast<float>(i) + 0.5f) / steps);

@@ -17,7 +17,7 @@ namespace iride {
 // The most paths that are followed together.
 inline constexpr int batch_size = 64;
 
-// Samples [first, last) of every pixel.
+// Samples [first, last) of every pixel; where pixels have goals of their own, up to the highest.
 struct SamplePass {
     std::uint64_t seed;
     std::uint32_t first, last;
@@ -30,6 +30,8 @@ class Integrator {
     virtual void prepare(Scene const&, SamplePass const&, RayStatistics&) {}
     // How many samples, from this one on, one pass may have.
     virtual int samples_alike(std::uint32_t /*first*/) const { return std::numeric_limits<int>::max(); }
+    // What each sample of the pass counts beside those of others: about the reciprocal of its variance.
+    virtual std::uint32_t weight() const { return 1; }
     // Follow at most batch_size paths, each on its own: what a path brings does not depend on those beside it.
     virtual void follow(Scene const& scene, std::span<CameraPath> paths, RayStatistics& statistics) const = 0;
     // Whether a light path goes with each camera path, and leaves splats.

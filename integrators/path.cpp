@@ -36,17 +36,18 @@ class Path final : public Integrator {
 
     std::vector<std::string> remarks() const override { return known_.remarks; }
     bool splats() const override { return Lit; }
-    void split(Scene const& scene, RenderPlan const& plan, int most) { pilot_.emplace(scene, plan, most); }
+    void split(RenderPlan const& plan, int most) { pilot_.emplace(plan, most); }
     int samples_alike(std::uint32_t first) const override {
         return pilot_ ? pilot_->samples_alike(first) : Integrator::samples_alike(first);
     }
+    std::uint32_t weight() const override { return pilot_ ? pilot_->weight() : 1; }
     void prepare(Scene const& scene, SamplePass const& pass, RayStatistics& statistics) override {
-        if (!pilot_ || !pilot_->is_due(pass.first)) return;
+        if (!pilot_ || !pilot_->is_due(pass.last - 1)) return;
         splits_ = {};
         LightPathsBeside beside;
         if constexpr (Lit) beside = light_paths_.in_pilot(scene);
         auto const camera = std::bind_front(&Path::follow_from_camera, this, std::cref(scene));
-        LearntSplits learnt = pilot_->learn(scene, pass.first, camera, beside, statistics);
+        LearntSplits learnt = pilot_->learn(scene, pass.last - 1, camera, beside, statistics);
         splits_ = std::move(learnt.splits);
         if constexpr (Lit) light_paths_.set_share(learnt.light_paths);
     }
@@ -451,9 +452,8 @@ class Path final : public Integrator {
 };
 
 template <class PathType>
-std::unique_ptr<Integrator> in_parts(std::unique_ptr<PathType> path, Scene const& scene, RenderPlan const& plan,
-                                     int most) {
-    if (most > 1) path->split(scene, plan, most);
+std::unique_ptr<Integrator> in_parts(std::unique_ptr<PathType> path, RenderPlan const& plan, int most) {
+    if (most > 1) path->split(plan, most);
     return path;
 }
 
@@ -467,7 +467,7 @@ std::unique_ptr<Integrator> made_for(RenderPlan const& plan, Make&& make) {
 
 std::unique_ptr<Integrator> path_of(Scene const& scene, RenderPlan const& plan, KnownIndirect known, int parts) {
     auto const make = [&]<bool... Needs>() {
-        return in_parts(std::make_unique<Path<Needs...>>(scene, plan, std::move(known)), scene, plan, parts);
+        return in_parts(std::make_unique<Path<Needs...>>(scene, plan, std::move(known)), plan, parts);
     };
     return plan.scattering ? make.template operator()<true, true, true>() : made_for(plan, make);
 }
@@ -492,8 +492,7 @@ std::unique_ptr<Integrator> caustic_path_in_parts(Scene const& scene, RenderPlan
     options.finish();
     return made_for(plan, [&]<bool Dispersive, bool Media>() {
         using Lit = Path<Dispersive, Media, false, true>;
-        return in_parts(std::make_unique<Lit>(scene, plan, KnownIndirect{}, std::move(light_paths)), scene, plan,
-                        parts);
+        return in_parts(std::make_unique<Lit>(scene, plan, KnownIndirect{}, std::move(light_paths)), plan, parts);
     });
 }
 

@@ -36,6 +36,7 @@ class Batch {
           integrator_(integrator),
           splats_(integrator.splats()),
           may_be_negative_(integrator.may_be_negative()),
+          weight_(integrator.weight()),
           starter_(starter),
           film_(film),
           groups_(groups),
@@ -52,7 +53,11 @@ class Batch {
     void finish() {
         if (count_ == 0) return;
         integrator_.follow(scene_, std::span(paths_).first(count_), statistics_.rays);
-        for (std::size_t i = 0; i < count_; ++i) deposit(origin_[i], paths_[i]);
+        for (std::size_t i = 0; i < count_; ++i) {
+            constexpr std::size_t ahead = 4;
+            if (splats_ && i + ahead < count_) expect(paths_[i + ahead].splats);
+            deposit(origin_[i], paths_[i]);
+        }
         count_ = 0;
         if (statistics_.rays.timed) statistics_.timed_ticks += processor_ticks() - started_;
     }
@@ -77,27 +82,33 @@ class Batch {
         if (!may_be_negative_ && is_negative(path.radiance)) return Rejection::negative;
         return std::nullopt;
     }
+    void expect(std::span<Splat const> splats) const {
+        for (Splat const& splat : splats)
+            film_.expect_splat(std::clamp(static_cast<int>(splat.x), 0, film_.width() - 1),
+                               std::clamp(static_cast<int>(splat.y), 0, film_.height() - 1));
+    }
     void deposit(Pixel p, CameraPath const& path) {
         auto const cause = why_rejected(path);
         if (cause)
             film_.reject(p.x, p.y, *cause);
         else
-            film_.add(p.x, p.y, path.wavelengths, path.radiance);
+            film_.add(p.x, p.y, path.wavelengths, path.radiance, weight_);
         if (groups_ && cause)
             groups_->reject(p.x, p.y, *cause);
         else if (groups_)
             groups_->add(p.x, p.y, path.wavelengths, path.shares);
         if (!splats_ || !path.complete) return;
-        film_.count_light_path();
+        film_.count_light_path(weight_);
         for (Splat const& splat : path.splats)
             starter_.spread(splat, [&](int x, int y, float weight) {
-                film_.splat(x, y, path.wavelengths, splat.radiance * weight);
+                film_.splat(x, y, path.wavelengths, splat.radiance * weight, weight_);
             });
     }
 
     Scene const& scene_;
     Integrator const& integrator_;
     bool splats_, may_be_negative_;
+    std::uint32_t weight_;
     PathStarter const& starter_;
     Film& film_;
     LightGroupFilms* groups_;
@@ -216,7 +227,9 @@ RenderReport render(Scene const& scene, RenderPlan const& plan, Integrator& inte
         std::optional<double> per_sample;
         if (report.spp > before) per_sample = seconds_since(start) / (report.spp - before);
         int const pass = settings.goals ? 1 : next_pass(settings, report.spp, integrator, per_sample);
-        auto const first = static_cast<std::uint32_t>(report.spp), last = static_cast<std::uint32_t>(report.spp + pass);
+        auto const first = static_cast<std::uint32_t>(report.spp);
+        std::uint32_t const last =
+            settings.goals ? std::ranges::max(settings.goals->pixel) : first + static_cast<std::uint32_t>(pass);
         arena.execute([&] {
             integrator.prepare(scene, {settings.seed, settings.first_sample + first, settings.first_sample + last},
                                report.rays);

@@ -4,7 +4,8 @@
 //   v = E[(a - b)^2] / 2 over the parts a, b of one path, relative to the squared mean colour [as relMSE]
 // Then k ~ sqrt(v / c), c what a part costs [rays], with the factor for which time x error is least [Neyman 1934]: as
 // adaptive sampling, but every pixel has the same number of samples, and as the pilot's paths are not in the picture it
-// stays unbiased. Where light paths go with camera paths, beside those in parts they bring a variance u and cost c,
+// stays unbiased. Samples that are split one way weigh as their parts, in the mean over the picture, beside those that
+// are split another. Where light paths go with camera paths, beside those in parts they bring a variance u and cost c,
 // each of one a sample: beside time T and error E of the parts, (T + s c) (E + u / s) is least for a share s of
 //   s = sqrt(u T / (c E))                                                                  [Bolin 1997] [Rath 2022]
 #pragma once
@@ -55,23 +56,26 @@ struct LearntSplits {
 // Runs pilots, the more thorough the more samples there are: each costs about a sixteenth of those before its next.
 class SplitPilot {
   public:
-    // At most `most` parts, powers of two.
-    SplitPilot(Scene const& scene, RenderPlan const& plan, int most);
+    // At most `most` parts, powers of two; the first sample is whole.
+    SplitPilot(RenderPlan plan, int most) : plan_(std::move(plan)), most_(most) {}
 
     // How many samples of a pixel, from `first` on, are split alike.
     int samples_alike(std::uint32_t first) const;
-    // Whether those from `first` on want other splits than the latest found.
-    bool is_due(std::uint32_t first) const { return stage_of(first) != latest_; }
+    // Whether this sample wants other splits than the latest found.
+    bool is_due(std::uint32_t sample) const { return stage_of(sample) != latest_; }
+    // Of each sample split as found: about the reciprocal of its variance.
+    std::uint32_t weight() const { return weight_; }
     // A function of scene, plan and stage alone.
-    LearntSplits learn(Scene const& scene, std::uint32_t first, FollowPaths const& follow,
+    LearntSplits learn(Scene const& scene, std::uint32_t sample, FollowPaths const& follow,
                        LightPathsBeside const& beside, RayStatistics& statistics);
 
   private:
     static int stage_of(std::uint32_t sample);
 
-    PathStarter starter_;
+    RenderPlan plan_;
     int most_;
     int latest_ = -1;
+    std::uint32_t weight_ = 1;
 };
 
 }  // namespace iride

@@ -46,6 +46,18 @@ TEST_CASE("a splatted mean's variance is that of paths of which most bring nothi
     CHECK(splats.variance(0, 2).X == Approx((10 - 3.2) / 25));
 }
 
+// Light paths of weights 1, 2, 2, 5 bring 3, nothing, 1 and nothing: mean (3 + 2) / 10, variance of the mean
+// (3^2 + (2 x 1)^2 - 5^2 x 34 / 100) / 100, as the weights' squares add up to 34.
+TEST_CASE("light paths count by the weights of the samples they go with", "[unit]") {
+    Splats splats(2, 3, 0);
+    for (auto [weight, value] : {std::pair(1u, 3.0), {2u, 0.0}, {2u, 1.0}, {5u, 0.0}}) {
+        splats.count_path(weight);
+        if (value > 0) splats.add(0, 2, {weight * value, 0, 0});
+    }
+    CHECK(splats.mean(0, 2).X == Approx(0.5));
+    CHECK(splats.variance(0, 2).X == Approx((9 + 4 - 25 * 0.34) / 100));
+}
+
 // Of N = 5 paths two bring (3, 1, 0) and (1, 2, 1) to one pixel of six: (sum v v' - sum v sum v'
 // / 5) / 25; the camera's samples of the same film add theirs, the sample covariance over n.
 TEST_CASE("a pixel's covariance is that of its samples and of its splats", "[unit]") {

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "base/sampler.h"
 #include "base/vector.h"
@@ -54,6 +55,34 @@ TEST_CASE("variance of the mean equals the two-pass estimate", "[unit]") {
                 CHECK(together.variance(0, 0).*c == Approx(squares / n / (n - 1)).epsilon(1e-9));
             }
         }
+}
+
+// Samples of variance 1 / w and weight w, at Var(mean) = 1 / sum w. Fails if a square counts once, or by w^2.
+TEST_CASE("the variance of samples that weigh by theirs is that of their mean", "[law]") {
+    constexpr std::array<std::uint32_t, 12> weights{1, 3, 3, 3, 9, 9, 9, 9, 16, 16, 16, 16};
+    constexpr int films = 4000;
+    Wavelengths const w = draw(1, 0)[0].wavelengths;
+    Film one = empty_film(1);
+    one.add(0, 0, w, Radiance(1.0f));
+    double const unit = one.mean(0, 0).Y;
+    double sum = 0, squares = 0, told = 0;
+    for (int f = 0; f < films; ++f) {
+        Film film = empty_film(1);
+        film.add_splat_layer();
+        for (std::uint32_t s = 0; s < weights.size(); ++s) {
+            Sampler random(SamplerKind::independent, 5, static_cast<std::uint32_t>(f), s);
+            float const noise = std::sqrt(12.0f) * (random.next() - 0.5f);
+            film.add(0, 0, w, Radiance(10 + noise / std::sqrt(static_cast<float>(weights[s]))), weights[s]);
+        }
+        double const mean = film.mean(0, 0).Y / unit;
+        sum += mean / films;
+        squares += mean * mean / films;
+        told += film.variance(0, 0).Y / square(unit) / films;
+    }
+    double const exact = 1.0 / std::accumulate(weights.begin(), weights.end(), 0u);
+    CHECK(sum == Approx(10).epsilon(1e-3));
+    CHECK(squares - sum * sum == Approx(exact).epsilon(0.1));
+    CHECK(told == Approx(exact).epsilon(0.05));
 }
 
 TEST_CASE("of fewer than two samples the variance is unknown", "[unit]") {

@@ -38,7 +38,7 @@ LearntSplits learnt_of(int width, int height, int most, Noise&& noise, LightPath
             ++rays.closest_rays;
         }
     };
-    return SplitPilot(*scene, make_plan(*scene), most).learn(*scene, 16, follow, beside, all);
+    return SplitPilot(make_plan(*scene), most).learn(*scene, 16, follow, beside, all);
 }
 template <class Noise>
 Splits learnt(int width, int height, int most, Noise&& noise) {
@@ -112,21 +112,36 @@ TEST_CASE("light paths are as many as their noise and cost make best", "[law]") 
 TEST_CASE("the more samples, the more a pilot asks", "[law]") {
     auto const scene = lit(gold);
     scene->film.width = scene->film.height = 64;
-    SplitPilot pilot(*scene, make_plan(*scene), 8);
-    CHECK(pilot.samples_alike(0) == 4);
+    SplitPilot pilot(make_plan(*scene), 8);
+    CHECK(pilot.samples_alike(0) == 1);
+    CHECK(pilot.samples_alike(1) == 3);
     CHECK(pilot.samples_alike(3) == 1);
     CHECK(pilot.samples_alike(4) == 12);
     CHECK(pilot.samples_alike(16) > 1 << 20);
     int const pixels = scene->film.width * scene->film.height;
-    for (std::uint32_t first : {0u, 4u, 16u}) {
+    for (std::uint32_t first : {0u, 1u, 4u, 16u}) {
         std::atomic<int> paths = 0;
         RayStatistics rays;
         CHECK(pilot.is_due(first));
         auto const follow = [&](std::span<CameraPath> some, RayStatistics&) { paths += static_cast<int>(some.size()); };
-        pilot.learn(*scene, first, follow, {}, rays);
-        CHECK_FALSE(pilot.is_due(first + 1));
+        bool const split = !pilot.learn(*scene, first, follow, {}, rays).splits.none();
+        CHECK((first > 0 || (!split && paths == 0)));
+        CHECK_FALSE(pilot.is_due(first));
         CHECK(paths <= pixels * std::max(1, static_cast<int>(first)) / 8);
     }
+}
+
+// Few samples of many pictures, so that whole ones and those in parts are among them. Fails if splats do not have the
+// weights of their samples.
+TEST_CASE("whole paths and parts together bring what whole paths bring", "[law]") {
+    auto const scene = lit(gold);
+    constexpr int pictures = 800, spp = 3;
+    Film few = make_film(*scene);
+    few.add_splat_layer();
+    for (int i = 0; i < pictures; ++i)
+        few.add(rendered(*scene, "caustic-path:splits=16",
+                         {.spp = spp, .seed = 100u + static_cast<unsigned>(i), .sampler = SamplerKind::independent}));
+    check_films_agree(few, rendered(*scene, "path", {.spp = 8000, .seed = 5, .sampler = SamplerKind::independent}));
 }
 
 // At least half the variance goes with up to 8 parts. Fails if the parts of a path share their numbers.
