@@ -79,7 +79,6 @@ class Film {
     }
     // With the weight of the sample that the light path goes with.
     void splat(int x, int y, Wavelengths const& wavelengths, Radiance const& radiance, std::uint32_t weight = 1);
-    void expect_splat(int x, int y) const { splats_->expect(x, y); }
     void count_light_path(std::uint32_t weight = 1) { splats_->count_path(weight); }
     // Count a sample that is dropped; the pixel's mean is over the samples added.
     void reject(int x, int y, Rejection cause);

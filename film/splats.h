@@ -3,8 +3,8 @@
 // on the order: a value v is kept as v = high 2^-12 + low 2^-44, two 64-bit counts that are added to on their own. A
 // splat is exact to 2^-45 and sums hold to 2^51. With v the splat times the weight w of its light path (film/film.h)
 // over the number of pixels n, and W = sum w over all light paths,
-//   mean = n / W sum v,   covariance of the mean = (n / W)^2 (sum v v' - sum v sum v' sum w^2 / W^2),   v, v' of X, Y,
-//   Z
+//   mean = n / W sum v,   covariance of the mean = (n / W)^2 (sum v v' - sum v sum v' sum w^2 / W^2)
+// with v, v' of X, Y, Z,
 // as if the splats of one light path to one pixel were independent of one another.
 #pragma once
 
@@ -25,12 +25,6 @@ class Splats {
     // value beyond the largest.
     bool add(int x, int y, Xyz const& value);
     void add_to_band(int x, int y, int band, double value);
-    // Fetch a pixel that something is soon added to: splats fall anywhere, and each would wait for memory.
-    void expect(int x, int y) const {
-        char const* const pixel = reinterpret_cast<char const*>(&pixels_[index(x, y)]);
-        constexpr std::size_t cache_line = 64;
-        for (std::size_t at = 0; at < sizeof(Pixel); at += cache_line) __builtin_prefetch(pixel + at, 1);
-    }
     void count_path(std::uint32_t weight = 1);
     void reject();  // count a splat that is dropped
     std::uint64_t rejected() const { return static_cast<std::uint64_t>(rejected_); }

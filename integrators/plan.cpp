@@ -117,31 +117,30 @@ AskedLights asked_lights(Scene const& scene, UniformLight uniform) {
     return asked;
 }
 
-void decide_light_sampling(Scene const& scene, RenderPlan& plan) {
+void decide_light_sampling(Scene const& scene, AskedLights const& asked, RenderPlan& plan) {
     std::string const finite = names_of(scene, [](NamedMaterial const& m) { return m.material->traits.has_density; });
     bool const lamps = scene.lights.has_power();
     plan.light_sampling = lamps && (!finite.empty() || plan.scattering);
-    int const asked = asked_lights(scene, plan.uniform_light).count;
-    decided(plan, "light sampling", plan.light_sampling && asked > 0,
+    decided(plan, "light sampling", plan.light_sampling && asked.count > 0,
             !lamps                 ? "no light has any power"
             : !plan.light_sampling ? "every surface is a mirror, glass or black: lamps are found by scattering alone"
-            : asked == 0           ? "no light but what is the same from everywhere"
-                                   : fmt::format("{} of {} lights", asked, scene.lights.size()));
+            : asked.count == 0     ? "no light but what is the same from everywhere"
+                                   : fmt::format("{} of {} lights", asked.count, scene.lights.size()));
 }
 
 // Which light a surface asks. A tree looks at where the surface is; with few lights that costs more than it saves.
-void decide_light_selection(Scene const& scene, RenderPlan& plan) {
-    auto const [count, finite] = asked_lights(scene, plan.uniform_light);
+void decide_light_selection(Scene const& scene, AskedLights const& asked, RenderPlan& plan) {
     constexpr int worth_a_tree = 2;
-    bool const tree = finite >= worth_a_tree;
-    bool const choice = plan.light_sampling && count > 1;
+    bool const tree = asked.with_place >= worth_a_tree;
+    bool const choice = plan.light_sampling && asked.count > 1;
     plan.light_selection = scene.render.light_selection.value_or(tree ? LightSelection::tree : LightSelection::power);
     char const* const name = light_selection_names[static_cast<std::size_t>(plan.light_selection)];
     decided(plan, "light selection", choice,
             !choice                        ? "there is no choice"
             : scene.render.light_selection ? fmt::format("{}: the file's wish", name)
-            : tree ? fmt::format("tree: {} lamps, of which each place asks those that may bring it most", finite)
-                   : "power: no two lamps that have a place, of which a tree could choose");
+            : tree
+                ? fmt::format("tree: {} lamps, of which each place asks those that may bring it most", asked.with_place)
+                : "power: no two lamps that have a place, of which a tree could choose");
 }
 
 }  // namespace
@@ -203,8 +202,9 @@ RenderPlan make_plan(Scene const& scene) {
                                                    : "rays that leave the scene bring light");
 
     decide_uniform_light(scene, plan);
-    decide_light_sampling(scene, plan);
-    decide_light_selection(scene, plan);
+    AskedLights const asked = asked_lights(scene, plan.uniform_light);
+    decide_light_sampling(scene, asked, plan);
+    decide_light_selection(scene, asked, plan);
 
     bool const smooth = std::ranges::any_of(scene.shapes, [](Shape const& s) {
         auto const* m = std::get_if<MeshShape>(&s.geometry);

@@ -53,11 +53,7 @@ class Batch {
     void finish() {
         if (count_ == 0) return;
         integrator_.follow(scene_, std::span(paths_).first(count_), statistics_.rays);
-        for (std::size_t i = 0; i < count_; ++i) {
-            constexpr std::size_t ahead = 4;
-            if (splats_ && i + ahead < count_) expect(paths_[i + ahead].splats);
-            deposit(origin_[i], paths_[i]);
-        }
+        for (std::size_t i = 0; i < count_; ++i) deposit(origin_[i], paths_[i]);
         count_ = 0;
         if (statistics_.rays.timed) statistics_.timed_ticks += processor_ticks() - started_;
     }
@@ -81,11 +77,6 @@ class Batch {
         if (!is_finite(path.radiance)) return Rejection::not_finite;
         if (!may_be_negative_ && is_negative(path.radiance)) return Rejection::negative;
         return std::nullopt;
-    }
-    void expect(std::span<Splat const> splats) const {
-        for (Splat const& splat : splats)
-            film_.expect_splat(std::clamp(static_cast<int>(splat.x), 0, film_.width() - 1),
-                               std::clamp(static_cast<int>(splat.y), 0, film_.height() - 1));
     }
     void deposit(Pixel p, CameraPath const& path) {
         auto const cause = why_rejected(path);

@@ -320,8 +320,8 @@ LearntSplits SplitPilot::learn(Scene const& scene, std::uint32_t sample, FollowP
     weight_ = 1;
     Stage const& stage = stages[static_cast<std::size_t>(latest_)];
     if (stage.rounds == 0) return {{}, beside.follow ? std::optional(0.0f) : std::nullopt};
-    PathStarter const starter(scene, plan_, scene.film.width, scene.film.height, SamplerKind::sobol, pilot_seed);
-    Blocks const blocks(scene, stage.block, stage.rounds, starter);
+    if (!starter_) starter_.emplace(scene, plan_, scene.film.width, scene.film.height, SamplerKind::sobol, pilot_seed);
+    Blocks const blocks(scene, stage.block, stage.rounds, *starter_);
     Image<Pilot> const pilot = spread(pilot_of(scene, blocks, follow, statistics));
     int const most = std::min(most_, stage.most);
     double const factor = best_factor(pilot, most);
@@ -335,7 +335,7 @@ LearntSplits SplitPilot::learn(Scene const& scene, std::uint32_t sample, FollowP
         learnt.splits = Splits(std::move(parts), scene.film.width, scene.film.height);
     }
     if (beside.follow) {
-        Sighted const sighted = sighted_by(scene, blocks, beside, learnt.splits, starter);
+        Sighted const sighted = sighted_by(scene, blocks, beside, learnt.splits, *starter_);
         statistics.add(sighted.rays);
         learnt.light_paths = best_share(pilot, cost_of(pilot, factor, most), sighted, beside.share);
         worth *= worth_of_light_paths;

@@ -73,6 +73,7 @@ class SplitPilot {
     static int stage_of(std::uint32_t sample);
 
     RenderPlan plan_;
+    std::optional<PathStarter> starter_;  // of all pilots, made for the first
     int most_;
     int latest_ = -1;
     std::uint32_t weight_ = 1;

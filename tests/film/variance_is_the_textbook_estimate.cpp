@@ -68,7 +68,6 @@ TEST_CASE("the variance of samples that weigh by theirs is that of their mean", 
     double sum = 0, squares = 0, told = 0;
     for (int f = 0; f < films; ++f) {
         Film film = empty_film(1);
-        film.add_splat_layer();
         for (std::uint32_t s = 0; s < weights.size(); ++s) {
             Sampler random(SamplerKind::independent, 5, static_cast<std::uint32_t>(f), s);
             float const noise = std::sqrt(12.0f) * (random.next() - 0.5f);

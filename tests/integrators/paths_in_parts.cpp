@@ -137,7 +137,6 @@ TEST_CASE("whole paths and parts together bring what whole paths bring", "[law]"
     auto const scene = lit(gold);
     constexpr int pictures = 800, spp = 3;
     Film few = make_film(*scene);
-    few.add_splat_layer();
     for (int i = 0; i < pictures; ++i)
         few.add(rendered(*scene, "caustic-path:splits=16",
                          {.spp = spp, .seed = 100u + static_cast<unsigned>(i), .sampler = SamplerKind::independent}));
