@@ -35,14 +35,13 @@ class AimedLightPaths {
     void follow(Scene const& scene, std::span<CameraPath> paths, Splits const& splits,
                 RayStatistics& statistics) const {
         Sightings sightings;
-        for (CameraPath& path : paths)
-            walk_from_light<BesideLightPaths>(
-                scene, context_, emission_, path, statistics, [](LightStart const&, Sample2) {},
-                [&](LightVertex<BesideLightPaths> const& here, Flux const& flux, Sample2 lens) {
-                    sightings.add(path,
-                                  send_to_camera(scene, context_, path.wavelengths, here, flux, lens, true, splits),
-                                  scene, statistics);
-                });
+        std::array<LightWalk<BesideLightPaths>, batch_size> walks;
+        walk_from_lights<BesideLightPaths>(
+            scene, context_, emission_, paths, walks, statistics, [](CameraPath&, LightStart const&, Sample2) {},
+            [&](CameraPath& path, LightVertex<BesideLightPaths> const& here, Flux const& flux, Sample2 lens) {
+                sightings.add(path, send_to_camera(scene, context_, path.wavelengths, here, flux, lens, true, splits),
+                              scene, statistics);
+            });
         sightings.trace(scene, statistics);
     }
 

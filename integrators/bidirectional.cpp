@@ -39,13 +39,15 @@ class Bidirectional final : public Integrator {
 
     void follow(Scene const& scene, std::span<CameraPath> paths, RayStatistics& statistics) const override {
         Work work;
+        LightWalk<Heuristic> light_walk;
         Sightings sightings;
         for (CameraPath& path : paths) {
             work.vertices.clear();
             work.shadowed.clear();
-            walk_from_light<Heuristic>(
-                scene, context_, emission_, path, statistics, [](LightStart const&, Sample2) {},
-                [&](LightVertex<Heuristic> const& here, Flux const& flux, Sample2 lens) {
+            walk_from_lights<Heuristic>(
+                scene, context_, emission_, {&path, 1}, {&light_walk, 1}, statistics,
+                [](CameraPath&, LightStart const&, Sample2) {},
+                [&](CameraPath&, LightVertex<Heuristic> const& here, Flux const& flux, Sample2 lens) {
                     work.flux = flux;
                     work.vertices.push_back(here);
                     sightings.add(path, send_to_camera(scene, context_, path.wavelengths, here, flux, lens, true),

@@ -18,17 +18,18 @@ class LightTracing final : public Integrator {
 
     void follow(Scene const& scene, std::span<CameraPath> paths, RayStatistics& statistics) const override {
         Sightings sightings;
-        for (CameraPath& path : paths) {
-            auto const show = [&](std::optional<SentToCamera> const& sent) {
-                sightings.add(path, sent, scene, statistics);
-            };
-            walk_from_light<BalanceHeuristic>(
-                scene, context_, LampEmission{}, path, statistics,
-                [&](LightStart const& start, Sample2 lens) { show(lamp_itself(scene, path.wavelengths, start, lens)); },
-                [&](LightVertex<BalanceHeuristic> const& here, Flux const& flux, Sample2 lens) {
-                    show(send_to_camera(scene, context_, path.wavelengths, here, flux, lens, false));
-                });
-        }
+        std::array<LightWalk<BalanceHeuristic>, batch_size> walks;
+        auto const show = [&](CameraPath& path, std::optional<SentToCamera> const& sent) {
+            sightings.add(path, sent, scene, statistics);
+        };
+        walk_from_lights<BalanceHeuristic>(
+            scene, context_, LampEmission{}, paths, walks, statistics,
+            [&](CameraPath& path, LightStart const& start, Sample2 lens) {
+                show(path, lamp_itself(scene, path.wavelengths, start, lens));
+            },
+            [&](CameraPath& path, LightVertex<BalanceHeuristic> const& here, Flux const& flux, Sample2 lens) {
+                show(path, send_to_camera(scene, context_, path.wavelengths, here, flux, lens, false));
+            });
         sightings.trace(scene, statistics);
     }
     bool splats() const override { return true; }

@@ -7,6 +7,7 @@
 #include "integrators/light_emission_choice.h"
 #include "integrators/light_surroundings.h"
 #include "integrators/media.h"
+#include "integrators/path_batch.h"
 #include "integrators/splits.h"
 #include "integrators/subpath.h"
 #include "scene/camera_importance.h"
@@ -115,55 +116,119 @@ Way follow_to_surface(Scene const& scene, Wavelengths const& wavelengths, Ray& r
     return way;
 }
 
-// The light path that goes with a camera path. start(LightStart, Sample2) is called once with numbers for the lens,
-// vertex(LightVertex, flux, Sample2) at each vertex that has a density. Sets path.complete to false where it gives up.
-template <class Heuristic, class Emission, class Start, class Visit>
-void walk_from_light(Scene const& scene, TwoWayContext const& context, Emission const& emission, CameraPath& path,
-                     RayStatistics& statistics, Start&& on_start, Visit&& on_vertex) {
-    Sampler& sampler = path.sampler;
-    Wavelengths const& wavelengths = path.wavelengths;
-    sampler.begin_vertex(light_block);
-    float const choice = sampler.next();
-    if (choice >= context.share) return;
-    Sample2 const place = sampler.next2(), direction = sampler.next2();
-    auto const start = emission.start(scene, context.ball, wavelengths, choice / context.share, place, direction);
-    if (!start) return;
-    on_start(*start, sampler.next2());
+// A light path under way: what it has gathered before the ray at hand, and the hit where that ends.
+template <class Heuristic>
+struct LightWalk {
+    LightStart start;
+    Flux flux;  // there
+    Subpath<Heuristic> path;
+    Ray ray;
+    std::optional<Surroundings> in;
+    Hit hit;
+    float length;  // of the way to the hit
+    bool joined;   // false: it leads through surfaces that are none
+};
 
-    Light const& light = scene.lights.light(start->light);
-    EmissionSample const& emitted = start->sample;
-    Flux const flux = emitted.flux() * (1 / (start->probability * context.share));
-    Subpath<Heuristic> walk;
-    Ray ray = leaving_ray(light, emitted);
-    std::optional<Surroundings> in = context.lamps_in.at(scene, start->light, ray.origin);
-    if (in) walk.state.weight *= LightSurroundings::left(light, *in, wavelengths);
-    for (int number = 1; number <= context.max_bounces; ++number) {
-        bool joined = true;
-        Way const way =
-            follow_to_surface(scene, wavelengths, ray, in, walk, statistics, [&](Hit const&) { joined = false; });
-        path.complete &= way.complete;
-        if (!way.hit || !way.complete) return;
-        Hit const& hit = *way.hit;
-        Direction const back = -ray.direction;
-        float const arriving = std::abs(back.dot(hit.point.geometric_normal));
-        if (!(arriving > 0)) return;
-        if (number == 1)
-            begin(light, *start, hit, arriving, joined ? context.chosen(scene, hit, back, start->light) : 0, walk);
-        else
-            walk.arrive(way.length, arriving);
-        sampler.begin_vertex(light_block + static_cast<std::uint32_t>(number));
-        Sample2 const choices = sampler.next2(), lens = sampler.next2(), on = sampler.next2(),
-                      chances = sampler.next2();
-        LightVertex<Heuristic> const here{Meeting(scene, hit, back, wavelengths, chances.y, in), walk, number};
-        if (here.meeting.seen().bsdf.has_density()) on_vertex(here, flux, lens);
-        if (number == longest_path) path.complete = false;
-        if (number == context.max_bounces ||
-            !scatter_light(scene, wavelengths, here.meeting, {choices.y, on}, walk, ray))
-            return;
-        in = here.meeting.beside(scene, ray.direction);
-        constexpr int roulette_from = 2;
-        if (number > roulette_from && !survives<true>(walk.state, chances.x)) return;
+// The numbers of a start and of a vertex: a block of the sampler each.
+struct LightStartNumbers {
+    Sample2 choice, place, direction, lens;  // choice: x
+};
+struct LightVertexNumbers {
+    Sample2 choices, lens, direction, chances;  // choices: y: which lobe; chances: x: roulette, y: part of a mixture
+};
+
+// Walk from the lights with some camera paths, at most batch_size, each on a walk of its own, vertex by vertex: within
+// a stage they are independent of one another, as in integrators/path.cpp. on_start(path, LightStart, Sample2) is
+// called once with numbers for the lens, on_vertex(path, LightVertex, flux, Sample2) at each vertex that has a density.
+// Sets path.complete to false where it gives up.
+template <class Heuristic, class Emission, class Start, class Visit>
+void walk_from_lights(Scene const& scene, TwoWayContext const& context, Emission const& emission,
+                      std::span<CameraPath> paths, std::span<LightWalk<Heuristic>> walks, RayStatistics& statistics,
+                      Start&& on_start, Visit&& on_vertex) {
+    Alive alive(paths.size());
+    alive.keep_if([&](std::size_t i) { return start_walk(scene, context, emission, paths[i], walks[i], on_start); });
+    for (int number = 1; number <= context.max_bounces && !alive.none(); ++number) {
+        find_surfaces(scene, paths, walks, alive, statistics);
+        alive.keep_if(
+            [&](std::size_t i) { return visit_vertex(scene, context, number, paths[i], walks[i], on_vertex); });
     }
+}
+
+// False if no light path goes with this camera path.
+template <class Heuristic, class Emission, class Start>
+[[gnu::flatten]] bool start_walk(Scene const& scene, TwoWayContext const& context, Emission const& emission,
+                                 CameraPath& path, LightWalk<Heuristic>& walk, Start& on_start) {
+    LightStartNumbers u;
+    path.sampler.begin_vertex(light_block, u);
+    if (u.choice.x >= context.share) return false;
+    auto const start =
+        emission.start(scene, context.ball, path.wavelengths, u.choice.x / context.share, u.place, u.direction);
+    if (!start) return false;
+    on_start(path, *start, u.lens);
+    walk.start = *start;
+    walk.flux = start->sample.flux() * (1 / (start->probability * context.share));
+    Light const& light = scene.lights.light(start->light);
+    walk.path = {};
+    walk.ray = leaving_ray(light, start->sample);
+    walk.in = context.lamps_in.at(scene, start->light, walk.ray.origin);
+    if (walk.in) walk.path.state.weight *= LightSurroundings::left(light, *walk.in, path.wavelengths);
+    return true;
+}
+
+// To the ends of the rays; walks that find none have ended.
+template <class Heuristic>
+void find_surfaces(Scene const& scene, std::span<CameraPath> paths, std::span<LightWalk<Heuristic>> walks, Alive& alive,
+                   RayStatistics& statistics) {
+    std::array<ClosestQuery, batch_size> queries;
+    std::size_t count = 0;
+    alive.for_each([&](std::size_t i) {
+        if (!walks[i].in) queries[count++] = {&walks[i].ray, &walks[i].hit};
+    });
+    scene.accelerator->closest(std::span(queries).first(count), Accelerator::Coherence::none, statistics);
+    count = 0;
+    alive.keep_if([&](std::size_t i) {
+        LightWalk<Heuristic>& walk = walks[i];
+        walk.joined = true;
+        if (!walk.in) {
+            walk.length = walk.hit.distance;
+            return queries[count++].found;
+        }
+        Way const way = follow_to_surface(scene, paths[i].wavelengths, walk.ray, walk.in, walk.path, statistics,
+                                          [&](Hit const&) { walk.joined = false; });
+        paths[i].complete &= way.complete;
+        if (!way.hit || !way.complete) return false;
+        walk.hit = *way.hit;
+        walk.length = way.length;
+        return true;
+    });
+}
+
+// Its vertex `number`, and where it goes on from there; false if it ends.
+template <class Heuristic, class Visit>
+[[gnu::flatten]] bool visit_vertex(Scene const& scene, TwoWayContext const& context, int number, CameraPath& path,
+                                   LightWalk<Heuristic>& walk, Visit& on_vertex) {
+    Hit const& hit = walk.hit;
+    Direction const back = -walk.ray.direction;
+    float const arriving = std::abs(back.dot(hit.point.geometric_normal));
+    if (!(arriving > 0)) return false;
+    LightStart const& start = walk.start;
+    if (number == 1)
+        begin(scene.lights.light(start.light), start, hit, arriving,
+              walk.joined ? context.chosen(scene, hit, back, start.light) : 0, walk.path);
+    else
+        walk.path.arrive(walk.length, arriving);
+    LightVertexNumbers u;
+    path.sampler.begin_vertex(light_block + static_cast<std::uint32_t>(number), u);
+    LightVertex<Heuristic> const here{Meeting(scene, hit, back, path.wavelengths, u.chances.y, walk.in), walk.path,
+                                      number};
+    if (here.meeting.seen().bsdf.has_density()) on_vertex(path, here, walk.flux, u.lens);
+    if (number == longest_path) path.complete = false;
+    if (number == context.max_bounces ||
+        !scatter_light(scene, path.wavelengths, here.meeting, {u.choices.y, u.direction}, walk.path, walk.ray))
+        return false;
+    walk.in = here.meeting.beside(scene, walk.ray.direction);
+    constexpr int roulette_from = 2;
+    return number <= roulette_from || survives<true>(walk.path.state, u.chances.x);
 }
 
 // near and far at the first vertex: the light drawn from there, with that probability of being chosen, and met from
