@@ -8,6 +8,7 @@
 #include "integrators/light_surroundings.h"
 #include "integrators/media.h"
 #include "integrators/path_batch.h"
+#include "integrators/sightings.h"
 #include "integrators/splits.h"
 #include "integrators/subpath.h"
 #include "scene/camera_importance.h"
@@ -54,43 +55,6 @@ struct LightVertex {
 // Blocks of random numbers of light vertices lie beyond those of camera paths.
 inline constexpr std::uint32_t light_block = 1u << 20;
 static_assert(light_block > longest_path);
-
-// What a vertex sends to the camera: a splat, and the ray that must be free.
-struct SentToCamera {
-    Splat splat;
-    Ray shadow_ray;
-};
-
-// What the light paths of a batch send to the camera. Their rays are traced together.
-class Sightings {
-  public:
-    void add(CameraPath& path, std::optional<SentToCamera> const& sent, Scene const& scene, RayStatistics& statistics) {
-        if (!sent) return;
-        queries_[count_].ray = sent->shadow_ray;
-        splats_[count_] = sent->splat;
-        paths_[count_++] = &path;
-        if (count_ == batch_size) trace(scene, statistics);
-    }
-    // Those that nothing stands in the way of become splats of their paths, in the order they were sent.
-    void trace(Scene const& scene, RayStatistics& statistics) {
-        scene.accelerator->occluded(std::span(queries_).first(count_), statistics);
-        for (std::size_t k = 0; k < count_; ++k)
-            if (!queries_[k].occluded) paths_[k]->splats.push_back(splats_[k]);
-        count_ = 0;
-    }
-
-  private:
-    std::array<ShadowQuery, batch_size> queries_;
-    std::array<Splat, batch_size> splats_;
-    std::array<CameraPath*, batch_size> paths_;
-    std::size_t count_ = 0;
-};
-
-// `light_paths` times `radiance_area`, what leaves per steradian and |cosine|, seen by the camera.
-inline std::optional<SentToCamera> send(SurfacePoint const& from, SightOfCamera const& sight, Radiance const& value) {
-    if (is_black(value)) return std::nullopt;
-    return SentToCamera{{sight.x, sight.y, value}, spawn_shadow_ray(from, sight.towards, sight.distance)};
-}
 
 // The way to the next surface that is one, through those that are none: passed(hit) is called for each of them. No
 // vertex is joined with another through them, so `near` ends there.
