@@ -41,7 +41,7 @@ class Sightings {
     std::size_t count_ = 0;
 };
 
-// `light_paths` times `radiance_area`, what leaves per steradian and |cosine|, seen by the camera.
+// `value` at the place of `sight` in the picture, if nothing stands between it and `from`; absent if it is black.
 inline std::optional<SentToCamera> send(SurfacePoint const& from, SightOfCamera const& sight, Radiance const& value) {
     if (is_black(value)) return std::nullopt;
     return SentToCamera{{sight.x, sight.y, value}, spawn_shadow_ray(from, sight.towards, sight.distance)};
