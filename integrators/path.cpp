@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "integrators/path_walk.h"
+#include "integrators/light_afloat.h"
 #include "integrators/radiosity/field.h"
 #include "integrators/splits.h"
 
@@ -28,6 +28,7 @@ class Path final : public Integrator {
         : light_paths_(std::move(light_paths)),
           known_(std::move(known)),
           selector_(scene.lights, plan.light_selection, plan.uniform_light),
+          light_afloat_(scene, plan),
           max_bounces_(plan.max_bounces.value_or(longest_path)),
           light_sampling_(plan.light_sampling && !selector_.none()),
           environment_(plan.environment),
@@ -87,12 +88,14 @@ class Path final : public Integrator {
     // The ends of the paths' rays: those that remain alive are at vertex `bounce`.
     [[gnu::flatten]] void reach_vertex(Scene const& scene, std::span<CameraPath> paths, Walks& walks, Alive& alive,
                                        int bounce, Exchange& between, RayStatistics& statistics) const {
-        alive.for_each([&](std::size_t i) {
-            paths[i].sampler.begin_vertex(static_cast<std::uint32_t>(bounce), walks[i].numbers);
-        });
+        alive.for_each(
+            [&](std::size_t i) { walks[i].begin_vertex(paths[i].sampler, static_cast<std::uint32_t>(bounce)); });
         find_hits(scene, paths, walks, alive, bounce, between.queries, statistics);
         if constexpr (Media)
-            alive.keep_if([&](std::size_t i) { return travel_on(scene, paths[i], walks[i], statistics); });
+            alive.keep_if([&](std::size_t i) {
+                return travel_on(scene, paths[i], walks[i], bounce, between.shadows, statistics);
+            });
+        if constexpr (Scattering) between.shadows.trace(scene, statistics);
         alive.keep_if([&](std::size_t i) { return arrive(scene, paths[i], walks[i], bounce); });
     }
 
@@ -109,8 +112,9 @@ class Path final : public Integrator {
             }
             if (light_sampling_) ask_lights(scene, paths, walks, alive, between);
             alive.keep_if([&](std::size_t i) {
-                return scatter(scene, paths[i], walks[i], between.shadows) &&
-                       (bounce < roulette_from || survives<Dispersive>(walks[i].state, walks[i].numbers.chances.x));
+                return scatter(scene, paths[i], walks[i], bounce, between.shadows, statistics) &&
+                       (bounce < roulette_from ||
+                        survives<Dispersive>(walks[i].state, walks[i].numbers.chances.x, chance_to_return(walks[i])));
             });
             if (light_sampling_) between.shadows.trace(scene, statistics);
             reach_vertex(scene, paths, walks, alive, ++bounce, between, statistics);
@@ -158,17 +162,22 @@ class Path final : public Integrator {
         } else {
             float passing = 1;
             bool const through =
-                fly(scene, hit, path.wavelengths, flight, path.ray, walk.in, walk.state, passing, walk.afloat);
+                fly(scene, hit, path.wavelengths, flight, path.ray, walk.in, walk.state, passing, walk.floating.at);
             if (walk.arrival.density) walk.arrival.density->value *= passing;
             return through;
         }
     }
 
     // Through surfaces that are none to the first that is one, or to a scattering; false if there is no end to them.
-    bool travel_on(Scene const& scene, CameraPath& path, Walk& walk, RayStatistics& statistics) const {
-        Flight flight(Scattering ? path.sampler.next() : 0);
-        if constexpr (Scattering) walk.afloat.reset();
-        for (int passed = 0; travel_once(scene, path, walk, flight); ++passed) {
+    bool travel_on(Scene const& scene, CameraPath& path, Walk& walk, [[maybe_unused]] int bounce,
+                   [[maybe_unused]] Shadows& shadows, RayStatistics& statistics) const {
+        Flight flight(walk.flight_depth());
+        if constexpr (Scattering) walk.floating.at.reset();
+        for (int passed = 0;; ++passed) {
+            if constexpr (Scattering)
+                if (light_sampling_ && bounce < max_bounces_)
+                    light_afloat_.look_along(scene, path, walk, selector_, shadows, statistics);
+            if (!travel_once(scene, path, walk, flight)) return true;
             if (walk.hit.shape->light >= 0) path.bring(walk.hit.shape->light, from_emitter(scene, path, walk));
             walk.arrival.density.reset();  // shadow rays end here: no light sample gets further
             if constexpr (Lit) walk.rivalry.pass(walk.hit.distance);
@@ -177,7 +186,10 @@ class Path final : public Integrator {
             scene.accelerator->closest({&query, 1}, Accelerator::Coherence::none, statistics);
             walk.has_hit = query.found;
         }
-        return true;
+    }
+    float chance_to_return([[maybe_unused]] Walk& walk) const {
+        if constexpr (Scattering) return light_afloat_.chance_to_return(walk);
+        return 1;
     }
 
     // mean(next.reach) + mean(state.reach) p_light / p_hero.
@@ -192,15 +204,9 @@ class Path final : public Integrator {
         return light_sampling_ ? selector_.probability(arrival.from, light) : 0;
     }
 
-    // The normal on the side that the path comes from.
-    static Direction side_of(Walk const& walk, Direction const& to_viewer) {
-        Direction const& n = walk.hit.point.geometric_normal;
-        return to_viewer.dot(n) < 0 ? Direction(-n) : n;
-    }
-
     LightReceiver receiver_of(Scene const& scene, Direction const& to_viewer, Walk const& walk) const {
         if (!selector_.looks_at_receiver() || walk.is_afloat()) return {walk.place(), Vector(0, 0, 0)};
-        return receiver(scene, walk.hit, side_of(walk, to_viewer));
+        return receiver(scene, walk.hit, walk.side_of(to_viewer));
     }
 
     // What is emitted where the ray ends, and the surface there; false if the path ends with it.
@@ -316,7 +322,7 @@ class Path final : public Integrator {
                 VertexNumbers const& numbers = walks[i].numbers;
                 LightRequest& request = between.requests[count];
                 request.from = walks[i].place();
-                request.normal = side_of(walks[i], -paths[i].ray.direction);
+                request.normal = walks[i].side_of(-paths[i].ray.direction);
                 request.u = std::array{numbers.light, numbers.direction, numbers.choices}[lamp];
                 request.wavelengths = &paths[i].wavelengths;
                 between.asking[count++] = {i, {static_cast<int>(lamp), 1}};
@@ -382,31 +388,18 @@ class Path final : public Integrator {
                     spawn_shadow_ray(walk.hit.point, light.wi, light.distance));
     }
 
-    // The same of a light sample that is scattered in a medium.
-    static void weigh_afloat([[maybe_unused]] CameraPath& path, [[maybe_unused]] Walk const& walk,
-                             [[maybe_unused]] Shadows& shadows) {
-        if constexpr (Scattering) {
-            LightSample const& light = *walk.light;
-            Medium const& medium = walk.in.medium();
-            float const phase = HenyeyGreenstein(medium.asymmetry, path.ray.direction).density(light.wi).value;
-            Lanes competitors(walk.choice.probability);
-            if (light.density)
-                competitors = passing_probability(medium, light.distance, path.wavelengths) * phase +
-                              Lanes(walk.choice.probability * light.density->value);
-            Throughput const seen = walk.state.weight * medium.transmittance(light.distance, path.wavelengths);
-            shadows.add(path, walk.choice.light,
-                        seen * light.radiance * (phase / float(mean(walk.state.reach * competitors))),
-                        shadow_ray(walk.place(), light.wi, light.distance));
-        }
-    }
-
     // Make the surface's closure, weigh the lamp's sample by it and choose where the path goes on; false if it ends
     // here.
-    [[gnu::flatten]] bool scatter(Scene const& scene, CameraPath& path, Walk& walk, Shadows& shadows) const {
-        if (walk.is_afloat()) return scatter_afloat(path, walk, shadows);
+    [[gnu::flatten]] bool scatter(Scene const& scene, CameraPath& path, Walk& walk, [[maybe_unused]] int bounce,
+                                  Shadows& shadows, [[maybe_unused]] RayStatistics& statistics) const {
+        if constexpr (Scattering)
+            if (walk.is_afloat()) return scatter_afloat(scene, path, walk, bounce, shadows, statistics);
         Met const met = meeting(scene, path, walk);
         Interaction const& here = seen(met);
         if (light_sampling_ && walk.light) weigh(scene, met, path, walk, shadows);
+        if constexpr (Scattering)
+            if (looks_at_beams(bounce))
+                light_afloat_.look_at_beam(scene, here, path, walk, selector_, shadows, statistics);
         auto const sample = here.bsdf.sample(here.wo, {walk.numbers.choices.y, walk.numbers.direction});
         if (!sample) return false;
         Direction const wi = here.frame.to_world(sample->wi);
@@ -427,17 +420,19 @@ class Path final : public Integrator {
         return true;
     }
 
+    // Whether what a beam lights may be seen from there: one scattering more.
+    bool looks_at_beams(int bounce) const { return light_sampling_ && bounce + 1 < max_bounces_; }
+
     // In a medium: always on, and in all lanes alike.
-    bool scatter_afloat([[maybe_unused]] CameraPath& path, [[maybe_unused]] Walk& walk,
-                        [[maybe_unused]] Shadows& shadows) const {
-        if constexpr (Scattering) {
-            if (light_sampling_ && walk.light) weigh_afloat(path, walk, shadows);
-            HenyeyGreenstein const phase(walk.in.medium().asymmetry, path.ray.direction);
-            Direction const wi = phase.sample(walk.numbers.direction);
-            walk.arrival = {phase.density(wi), {walk.place(), Vector(0, 0, 0)}, mean(walk.state.reach)};
-            if (ray_cones_) walk.cone = walk.cone.scattered(walk.afloat->distance, &*walk.arrival.density);
-            path.ray = {walk.place(), wi};
-        }
+    bool scatter_afloat(Scene const& scene, CameraPath& path, Walk& walk, int bounce, Shadows& shadows,
+                        RayStatistics& statistics) const {
+        if (light_sampling_ && walk.light) light_afloat_.weigh(scene, path, walk, shadows);
+        if (looks_at_beams(bounce)) light_afloat_.look_at_beam(scene, path, walk, selector_, shadows, statistics);
+        HenyeyGreenstein const phase(walk.in.medium().asymmetry, path.ray.direction);
+        Direction const wi = phase.sample(walk.numbers.direction);
+        walk.arrival = {phase.density(wi), {walk.place(), Vector(0, 0, 0)}, mean(walk.state.reach)};
+        if (ray_cones_) walk.cone = walk.cone.scattered(walk.floating.at->distance, &*walk.arrival.density);
+        path.ray = {walk.place(), wi};
         return true;
     }
 
@@ -446,6 +441,7 @@ class Path final : public Integrator {
     std::optional<SplitPilot> pilot_;  // absent: no path is split
     Splits splits_;
     LightSelector selector_;
+    [[no_unique_address]] std::conditional_t<Scattering, LightAfloat, NotCarried> light_afloat_;
     int max_bounces_;
     bool light_sampling_, environment_, ray_cones_;
     std::optional<Surroundings> camera_in_;  // absent: to be found for each path

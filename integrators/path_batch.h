@@ -46,11 +46,14 @@ struct VertexNumbers {
 
 // What the lamps bring to a batch if nothing stands between, and the rays that tell.
 struct Shadows {
-    std::array<ShadowQuery, batch_size> query;
-    std::array<Radiance, batch_size> radiance;
-    std::array<CameraPath*, batch_size> path;
-    std::array<int, batch_size> light;
+    static constexpr std::size_t capacity = 2 * batch_size;  // for each path that of a lamp, and that of a beam
+    std::array<ShadowQuery, capacity> query;
+    std::array<Radiance, capacity> radiance;
+    std::array<CameraPath*, capacity> path;
+    std::array<int, capacity> light;
     std::size_t count = 0;
+
+    bool is_full() const { return count == capacity; }
 
     void add(CameraPath& to, int from, Radiance const& unshadowed, Ray const& ray) {
         query[count].ray = ray;

@@ -9,7 +9,11 @@
 
 namespace iride {
 
-struct NotCarried {};
+struct NotCarried {
+    NotCarried() = default;
+    template <class... What>
+    explicit NotCarried(What const&...) {}
+};
 
 // What light paths might have found in a path's stead.
 struct Rivalry : OtherSide<BesideLightPaths> {
@@ -31,6 +35,29 @@ struct Rivalry : OtherSide<BesideLightPaths> {
     }
 };
 
+// The decisions of a path in media that scatter, beside those at its vertex.
+struct FlightNumbers {
+    float depth, lamp;
+    Sample2 places;     // x: on the path's ray, y: on a beam
+    Sample2 direction;  // of the beam
+
+    void draw(Sampler& sampler) {
+        Sample2 const first = sampler.next2();
+        depth = first.x;
+        lamp = first.y;
+        places = sampler.next2();
+        direction = sampler.next2();
+    }
+};
+
+// What a path carries through media that scatter.
+struct Floating {
+    FlightNumbers numbers;
+    std::optional<Afloat> at;  // present: the path is afloat
+    float reach_before = 1;    // mean reach before the latest flight
+    float farthest = 1;        // it has been from all there is, in radii of that, and not below 1
+};
+
 // A path under way, at its latest vertex: on a surface, or afloat in a medium that scatters.
 template <bool Media, bool Scattering, bool Lit>
 struct Walk {
@@ -44,16 +71,30 @@ struct Walk {
     LightSample const* light;      // that of the lamp asked; null: none
     LightSelector::Choice choice;  // of that lamp
     [[no_unique_address]] std::conditional_t<Media, Surroundings, NotCarried> in;
-    [[no_unique_address]] std::conditional_t<Scattering, std::optional<Afloat>, NotCarried> afloat;
+    [[no_unique_address]] std::conditional_t<Scattering, Floating, NotCarried> floating;
     [[no_unique_address]] std::conditional_t<Lit, Rivalry, NotCarried> rivalry;
 
+    void begin_vertex(Sampler& sampler, std::uint32_t vertex) {
+        sampler.begin_vertex(vertex, numbers);
+        if constexpr (Scattering) floating.numbers.draw(sampler);
+    }
+    // What decides how far it flies.
+    float flight_depth() const {
+        if constexpr (Scattering) return floating.numbers.depth;
+        return 0;
+    }
+    // The normal on the side that the path comes from.
+    Direction side_of(Direction const& to_viewer) const {
+        Direction const& n = hit.point.geometric_normal;
+        return to_viewer.dot(n) < 0 ? Direction(-n) : n;
+    }
     bool is_afloat() const {
-        if constexpr (Scattering) return afloat.has_value();
+        if constexpr (Scattering) return floating.at.has_value();
         return false;
     }
     Vector place() const {
         if constexpr (Scattering)
-            if (afloat) return afloat->position;
+            if (floating.at) return floating.at->position;
         return hit.point.position;
     }
 };
@@ -88,7 +129,7 @@ class Parts {
         part.part = 1 / static_cast<float>(parts);
         part.sampler.split(k, parts);
         walks_[count_] = walk;
-        part.sampler.begin_vertex(0, walks_[count_].numbers);
+        walks_[count_].begin_vertex(part.sampler, 0);
         whole_[count_++] = &whole;
     }
     // To the paths they are of what they have brought.

@@ -92,6 +92,18 @@ void decide_scattering(Scene const& scene, RenderPlan& plan) {
                                             : "free flights, lamps sampled where they end, in: " + where);
 }
 
+void decide_beams(Scene const& scene, RenderPlan& plan) {
+    int points = 0;
+    for (int i = 0; i < static_cast<int>(scene.lights.size()); ++i)
+        points += scene.lights.light(i).extent() == LightExtent::point && scene.lights.probability(i) > 0 ? 1 : 0;
+    plan.beams = decided(plan, "beams", plan.scattering && points > 0,
+                         !plan.scattering ? "no medium scatters: no beam is seen"
+                         : points == 0    ? "no point lamp or spot: free flights find what the others light"
+                                       : fmt::format("{} of {} lights without extent: what they light in a medium is "
+                                                     "looked for along rays and along beams, beside free flights",
+                                                     points, scene.lights.size()));
+}
+
 // Whether light that is the same from everywhere is asked for samples. Where flights end by chance these do better:
 // they are weighed by how much gets through.
 void decide_uniform_light(Scene const& scene, RenderPlan& plan) {
@@ -201,6 +213,7 @@ RenderPlan make_plan(Scene const& scene) {
                                                      "ends its path"
                                                    : "rays that leave the scene bring light");
 
+    decide_beams(scene, plan);
     decide_uniform_light(scene, plan);
     AskedLights const asked = asked_lights(scene, plan.uniform_light);
     decide_light_sampling(scene, asked, plan);

@@ -17,6 +17,7 @@ struct RenderPlan {
     bool dispersion = false;      // lanes part company somewhere: carry their reach
     bool media = false;           // bodies absorb or lie in one another: carry what a path is in
     bool scattering = false;      // some medium scatters: flights end by chance, lanes part company there too
+    bool beams = false;           // lamps without extent shine through media that scatter: looked for beside flights
     bool light_sampling = true;   // some light can be sampled, and some surface can use it
     bool environment = false;     // paths that leave the scene may bring radiance
     WavelengthRange wavelengths;  // where lamps and (observer or bands) overlap: what is sampled

@@ -42,9 +42,11 @@ bool sample_whole_range(Scene& scene, RenderPlan& plan) {
     return cut.min_nm > scene.wavelengths.min_nm || cut.max_nm < scene.wavelengths.max_nm;
 }
 
+bool leave_beams_to_flights(Scene&, RenderPlan& plan) { return std::exchange(plan.beams, false); }
+
 bool draw_for_observer(Scene&, RenderPlan& plan) { return !std::exchange(plan.observer_alone, true); }
 
-constexpr std::array<PlanSwitch, 9> table{{
+constexpr std::array<PlanSwitch, 10> table{{
     {"dispersion", "the reach of each lane is carried", true,
      [](Scene&, RenderPlan& plan) { return carry(plan.dispersion); }},
     {"media", "what a path is in is carried (absorption, nested bodies)", true, carry_media},
@@ -52,6 +54,7 @@ constexpr std::array<PlanSwitch, 9> table{{
      [](Scene&, RenderPlan& plan) { return carry(plan.environment); }},
     {"light sampling", "lights are sampled though no surface can use them", true, sample_lights},
     {"uniform light", "light that is the same from everywhere is sampled like a lamp", false, ask_uniform_light},
+    {"beams", "what point lamps light in a medium is found by free flights alone", false, leave_beams_to_flights},
     {"uv and tangents", "every hit gets uv, derivatives and tangent", true, parametrise_all},
     {"ray cones", "the diameter of a path's bundle is carried", true,
      [](Scene&, RenderPlan& plan) { return carry(plan.ray_cones); }},

@@ -93,12 +93,13 @@ inline Radiance seen_along(Scene const& scene, Ray const& ray, std::optional<Hit
 // Russian roulette: go on with probability q = min(.999, largest lane of the throughput) and divide by q. Throughput is
 // weight / mean(reach), which does not depend on which lane is the hero. With q >= the albedo of the last scattering
 // the variance is finite (q > rho^2); nothing is cut off. Of 1e7 paths some get into a glass ball at the very angle of
-// total reflection, by rounding, and never out: hence not 1. [Arvo 1990]
+// total reflection, by rounding, and never out: hence not 1. `chance`: by which q is less where little light is left to
+// find. [Arvo 1990]
 template <bool Dispersive>
-bool survives(PathState& state, float u) {
+bool survives(PathState& state, float u, float chance = 1) {
     float const scale = Dispersive ? float(mean(state.reach)) : 1.0f;
     constexpr float most = 0.999f;
-    float const q = std::min(most, largest(state.weight).value / scale);
+    float const q = std::min(most, largest(state.weight).value / scale) * chance;
     if (!(u < q)) return false;
     state.weight /= q;
     return true;

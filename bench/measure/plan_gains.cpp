@@ -31,7 +31,7 @@ Run run(Scene const& scene, RenderPlan const& plan, int round) {
 
 Rows measure_plan(Settings const& settings) {
     Rows rows = Rows::array();
-    for (std::string const& name : scenes_of(settings, {"cornell", "metals", "glass-spheres", "textures"}))
+    for (std::string const& name : scenes_of(settings, {"cornell", "metals", "glass-spheres", "textures", "haze"}))
         for (PlanSwitch const& off : plan_switches()) {
             auto const planned = load_for_picture(name), carrying = load_for_picture(name);
             RenderPlan const plan = make_plan(*planned), without = make_plan_without({off.name}, *carrying);
