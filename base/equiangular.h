@@ -2,13 +2,11 @@
 // Equiangular sampling: distances t along a ray, with a density that falls off as the squared distance from a point.
 // With h the perpendicular from the point and t_0 its foot, the ray sweeps the angle a about the point,
 //   da / dt = h / (h^2 + (t - t_0)^2)
-// and turned by a from b on it is, with s = b - t_0, at
+// and from the distance b, turned on by a, it is, with s = b - t_0, at
 //   t = b + (h^2 + s^2) sin a / (h cos a - s sin a)
 // which is the tangent of a sum, written so that nothing cancels far from the point. Uniform angles have the density
 // (da / dt) / (all the angle). [Kulla 2012]
 #pragma once
-
-#include <limits>
 
 #include "base/ray_part.h"
 #include "base/trigonometry.h"
@@ -18,11 +16,12 @@ namespace iride {
 class Equiangular {
   public:
     Equiangular(Ray const& ray, Vector const& point) {
-        constexpr float nearest = 1e-6f;  // of the way to the point: below it h is rounding
+        constexpr float nearest = 1e-6f;    // of the way to the point: below it h is rounding
+        constexpr float nearest2 = 1e-20f;  // m^2: squares of distances and their reciprocals stay in range
         Vector const from_point = ray.origin - point;
         foot_ = -from_point.dot(ray.direction);
-        height2_ = (from_point + foot_ * ray.direction).squaredNorm() + square(nearest) * from_point.squaredNorm() +
-                   std::numeric_limits<float>::min();
+        height2_ =
+            (from_point + foot_ * ray.direction).squaredNorm() + square(nearest) * from_point.squaredNorm() + nearest2;
         height_ = std::sqrt(height2_);
     }
 

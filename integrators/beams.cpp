@@ -23,6 +23,12 @@ Beams::Beams(LightSet const& lights) : of_light_(lights.size(), -1) {
         lamps_[static_cast<std::size_t>(k)].probability = by_power_.probability(k);
 }
 
+std::vector<Vector> Beams::places() const {
+    std::vector<Vector> places;
+    for (Lamp const& lamp : lamps_) places.push_back(lamp.place);
+    return places;
+}
+
 RayPart Beams::Lamp::lit(Ray const& ray) const {
     return cos_cone < 0 ? RayPart{} : part_in_cone(ray, place, axis, cos_cone);
 }
@@ -54,37 +60,35 @@ float Beams::density_on_ray(Ray const& ray, float distance, int light) const {
 
 namespace {
 
-// Per steradian and metre at `from` of a place at the distance d on a beam.
-float seen_from(Vector const& from, Vector const& place, Ray const& beam, float d) {
-    Equiangular const about_viewer(beam, from);
-    return about_viewer.angle_per_metre(d) / about_viewer.angle({}) * (place - from).squaredNorm() / square(d);
+// p(d) r^2 / d^2.
+float seen_from(Vector const& x1, Equiangular const& about_x1, Vector const& place, float d) {
+    return about_x1.angle_per_metre(d) / about_x1.angle({}) * (place - x1).squaredNorm() / square(d);
 }
 
 }  // namespace
 
-std::optional<Beams::OnBeam> Beams::on_beam(LightSet const& lights, Vector const& from, Wavelengths const& wavelengths,
+std::optional<Beams::OnBeam> Beams::on_beam(LightSet const& lights, Vector const& x1, Wavelengths const& wavelengths,
                                             Sample2 u, Sample2 direction) const {
     Lamp const& lamp = lamps_[static_cast<std::size_t>(by_power_.sample(u.x).index)];
     auto const e = lights.light(lamp.light).emit({}, wavelengths, {}, direction);
     if (!e) return std::nullopt;
     Ray const beam{lamp.place, e->travel};
-    Equiangular const about_viewer(beam, from);
-    float const d = about_viewer.turned(0, u.y * about_viewer.angle({}));
+    Equiangular const about_x1(beam, x1);
+    float const d = about_x1.turned(0, u.y * about_x1.angle({}));
     Vector const place = beam.origin + d * beam.direction;
-    float const distance = (place - from).norm();
+    float const distance = (place - x1).norm();
     if (!(d > 0 && distance > 0 && distance < infinity)) return std::nullopt;
-    return OnBeam{lamp.light,  place,
-                  e->travel,   d,
-                  e->radiance, (place - from) / distance,
-                  distance,    lamp.probability * e->density.direction.value * seen_from(from, place, beam, d)};
+    float const density = lamp.probability * e->density.direction.value * seen_from(x1, about_x1, place, d);
+    return OnBeam{lamp.light, place, e->travel, d, e->radiance, (place - x1) / distance, distance, density};
 }
 
-float Beams::density_on_beam(LightSet const& lights, Vector const& from, Vector const& place, int light,
+float Beams::density_on_beam(LightSet const& lights, Vector const& x1, Vector const& place, int light,
                              Direction const& to_lamp, float lamp_distance) const {
     Lamp const* const lamp = lamp_of(light);
     if (!lamp) return 0;
     float const direction = lights.light(light).emission_density({}, -to_lamp, 1).direction.value;
-    return lamp->probability * direction * seen_from(from, place, {lamp->place, -to_lamp}, lamp_distance);
+    Equiangular const about_x1(Ray{lamp->place, -to_lamp}, x1);
+    return lamp->probability * direction * seen_from(x1, about_x1, place, lamp_distance);
 }
 
 }  // namespace iride

@@ -28,7 +28,7 @@ class Path final : public Integrator {
         : light_paths_(std::move(light_paths)),
           known_(std::move(known)),
           selector_(scene.lights, plan.light_selection, plan.uniform_light),
-          light_afloat_(scene, plan),
+          light_afloat_(scene, plan, selector_),
           max_bounces_(plan.max_bounces.value_or(longest_path)),
           light_sampling_(plan.light_sampling && !selector_.none()),
           environment_(plan.environment),
@@ -176,10 +176,10 @@ class Path final : public Integrator {
         for (int passed = 0;; ++passed) {
             if constexpr (Scattering)
                 if (light_sampling_ && bounce < max_bounces_)
-                    light_afloat_.look_along(scene, path, walk, selector_, shadows, statistics);
+                    light_afloat_.look_along(scene, path, walk, shadows, statistics);
             if (!travel_once(scene, path, walk, flight)) return true;
             if (walk.hit.shape->light >= 0) path.bring(walk.hit.shape->light, from_emitter(scene, path, walk));
-            walk.arrival.density.reset();  // shadow rays end here: no light sample gets further
+            walk.arrival.density.reset();  // shadow rays end here: no sample of a lamp or a beam gets further
             if constexpr (Lit) walk.rivalry.pass(walk.hit.distance);
             if (passed == longest_path) return path.complete = false;
             ClosestQuery query{&path.ray, &walk.hit};
@@ -398,8 +398,7 @@ class Path final : public Integrator {
         Interaction const& here = seen(met);
         if (light_sampling_ && walk.light) weigh(scene, met, path, walk, shadows);
         if constexpr (Scattering)
-            if (looks_at_beams(bounce))
-                light_afloat_.look_at_beam(scene, here, path, walk, selector_, shadows, statistics);
+            if (looks_at_beams(bounce)) light_afloat_.look_at_beam(scene, here, path, walk, shadows, statistics);
         auto const sample = here.bsdf.sample(here.wo, {walk.numbers.choices.y, walk.numbers.direction});
         if (!sample) return false;
         Direction const wi = here.frame.to_world(sample->wi);
@@ -427,7 +426,7 @@ class Path final : public Integrator {
     bool scatter_afloat(Scene const& scene, CameraPath& path, Walk& walk, int bounce, Shadows& shadows,
                         RayStatistics& statistics) const {
         if (light_sampling_ && walk.light) light_afloat_.weigh(scene, path, walk, shadows);
-        if (looks_at_beams(bounce)) light_afloat_.look_at_beam(scene, path, walk, selector_, shadows, statistics);
+        if (looks_at_beams(bounce)) light_afloat_.look_at_beam(scene, path, walk, shadows, statistics);
         HenyeyGreenstein const phase(walk.in.medium().asymmetry, path.ray.direction);
         Direction const wi = phase.sample(walk.numbers.direction);
         walk.arrival = {phase.density(wi), {walk.place(), Vector(0, 0, 0)}, mean(walk.state.reach)};

@@ -46,7 +46,7 @@ struct VertexNumbers {
 
 // What the lamps bring to a batch if nothing stands between, and the rays that tell.
 struct Shadows {
-    static constexpr std::size_t capacity = 2 * batch_size;  // for each path that of a lamp, and that of a beam
+    static constexpr std::size_t capacity = 2 * batch_size;  // where a path scatters: that of a lamp and that of a beam
     std::array<ShadowQuery, capacity> query;
     std::array<Radiance, capacity> radiance;
     std::array<CameraPath*, capacity> path;

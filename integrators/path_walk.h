@@ -54,8 +54,8 @@ struct FlightNumbers {
 struct Floating {
     FlightNumbers numbers;
     std::optional<Afloat> at;  // present: the path is afloat
-    float reach_before = 1;    // mean reach before the latest flight
-    float farthest = 1;        // it has been from all there is, in radii of that, and not below 1
+    float reach_before = 1;    // mean reach where the latest flight began, or its part behind a surface that is none
+    float farthest = 1;        // greatest distance so far from the middle of all there is, in its radii, at least 1
 };
 
 // A path under way, at its latest vertex: on a surface, or afloat in a medium that scatters.

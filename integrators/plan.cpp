@@ -99,7 +99,7 @@ void decide_beams(Scene const& scene, RenderPlan& plan) {
     plan.beams = decided(plan, "beams", plan.scattering && points > 0,
                          !plan.scattering ? "no medium scatters: no beam is seen"
                          : points == 0    ? "no point lamp or spot: free flights find what the others light"
-                                       : fmt::format("{} of {} lights without extent: what they light in a medium is "
+                                       : fmt::format("{} of {} lights have no extent: what they light in a medium is "
                                                      "looked for along rays and along beams, beside free flights",
                                                      points, scene.lights.size()));
 }

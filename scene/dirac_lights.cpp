@@ -16,7 +16,7 @@ class SpotLight final : public Light {
     std::optional<LightSample> sample(Vector const& from, Wavelengths const& wavelengths, Sample2) const override {
         Vector const d = position_ - from;
         float const distance = d.norm();
-        if (!(distance > 0)) return std::nullopt;
+        if (!(distance > 0 && distance < infinity)) return std::nullopt;
         Direction const wi = d / distance;
         float const share = share_along(-wi);
         if (share == 0) return std::nullopt;

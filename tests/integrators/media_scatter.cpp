@@ -219,7 +219,8 @@ TEST_CASE("a wall glows beside a beam as the integral over the beam says", "[law
 }
 
 // Two lamps in a closed room full of haze that absorbs, with a diffuse, a metal and a glass ball, up to four
-// scatterings; the same in the open, from where paths hardly return; and a lamp in a ball of milk.
+// scatterings; the same in the open, from where paths hardly return; and a lamp in a ball of milk,
+// of one colour and of many, that one with a surface inside which is none.
 TEST_CASE("what is found along rays and beams is what flights find", "[law]") {
     std::string const lamps =
         R"("lights": [ { "type": "point", "position": [-0.8,0.6,0], "intensity": 3 },
@@ -233,13 +234,20 @@ TEST_CASE("what is found along rays and beams is what flights find", "[law]") {
     std::string const milk =
         R"("shapes": [ { "type": "sphere", "centre": [0,0,0], "radius": 1, "material": { "type": "dielectric", "ior": 1.1, "scattering_per_m": 1, "asymmetry": 0.4 } } ],
            "lights": [ { "type": "point", "position": [0.3,0.2,-0.4], "intensity": 3 } ])";
+    // Of the ball within, whose surface is none, nothing is seen.
+    std::string const nested =
+        R"("shapes": [ { "type": "sphere", "centre": [0,0,0], "radius": 1, "material": { "type": "dielectric", "ior": 1.1, "priority": 2, "scattering_per_m": )" +
+        hundredfold + R"(, "asymmetry": 0.4 } },
+                       { "type": "sphere", "centre": [0,0,0], "radius": 0.6, "material": { "type": "dielectric", "ior": 1.3, "priority": 1 } } ],
+           "lights": [ { "type": "point", "position": [0.3,0.2,-0.4], "intensity": 3 } ])";
     struct Place {
         char const* name;
         std::string things;
     };
     for (auto const& [name, things] :
          {Place{"room", haze(.25, 0.3) + R"(, "shapes": [ )" + room + balls + ", " + lamps},
-          Place{"open", haze(.25, 0.3) + R"(, "shapes": [ )" + balls + ", " + lamps}, Place{"milk", milk}}) {
+          Place{"open", haze(.25, 0.3) + R"(, "shapes": [ )" + balls + ", " + lamps}, Place{"milk", milk},
+          Place{"nested", nested}}) {
         auto const scene = test::scene_from(fmt::format(
             R"({{ "camera": {{ "eye": [0,0,-3.5], "target": [0,0,0], "field_deg": 40 }}, "film": {{ "size": [8,8] }},
                  "render": {{ "sampler": "independent", "max_bounces": 4 }}, {} }})",
@@ -254,7 +262,7 @@ TEST_CASE("what is found along rays and beams is what flights find", "[law]") {
                          {std::hypot(error.X, other.error.X), std::hypot(error.Y, other.error.Y),
                           std::hypot(error.Z, other.error.Z)},
                          0);
-        CHECK(error.Y < .02 * mean.Y);
+        CHECK(error.Y < .03 * mean.Y);
         CHECK(error.Y < .8 * by_flight.error.Y);
     }
 }
