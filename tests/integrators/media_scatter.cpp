@@ -103,26 +103,38 @@ TEST_CASE("haze that absorbs nothing does not change an even room", "[law]") {
     }
 }
 
+namespace {
+
+std::string haze(double sigma_s, double g) {
+    return fmt::format(R"("medium": {{ "scattering_per_m": {}, "absorption_per_m": 0.05, "asymmetry": {} }})", sigma_s,
+                       g);
+}
+
+double henyey_greenstein(double g, double cosine) {
+    return (1 - g * g) / (4 * pi_double) / std::pow(1 + g * g - 2 * g * cosine, 1.5);
+}
+
+}  // namespace
+
 // Light that is scattered once, from a lamp of intensity I at the distance h beside the ray, at z = 0, along the ray
 // from -3 to a black wall at 5: L = int sigma_s p(angle) I / r^2 exp(-sigma_t (z + 3 + r)) dz.
 TEST_CASE("the air glows beside a lamp as the integral along the ray says", "[law]") {
     double const h = .7, I = 4, sigma_s = .11, sigma_t = .11 + .05;
     for (double const g : {0., .6, -.4}) {
-        auto const scene = test::scene_from(
-            looking(fmt::format(
-                        R"("medium": {{ "scattering_per_m": {}, "absorption_per_m": 0.05, "asymmetry": {} }},
-                   "shapes": [ {{ "type": "quad", "corners": [[-40,-40,5],[-40,40,5],[40,40,5],[40,-40,5]], "material": {{ "type": "black" }} }} ],
+        auto const scene = test::scene_from(looking(
+            fmt::format(
+                R"({}, "shapes": [ {{ "type": "quad", "corners": [[-40,-40,5],[-40,40,5],[40,40,5],[40,-40,5]], "material": {{ "type": "black" }} }} ],
                    "lights": [ {{ "type": "point", "position": [0,{},0], "intensity": {} }} ])",
-                        sigma_s, g, h, I),
-                    R"(, "max_bounces": 1)"));
+                haze(sigma_s, g), h, I),
+            R"(, "max_bounces": 1)"));
         double wanted = 0;
         constexpr int steps = 100000;
         for (int i = 0; i < steps; ++i) {
             double const z = -3 + 8 * (i + .5) / steps, r = std::hypot(h, z);
             // Light travels from the lamp to z, then to -z.
             double const cosine = -z / r;
-            double const phase = (1 - g * g) / (4 * pi_double) / std::pow(1 + g * g - 2 * g * cosine, 1.5);
-            wanted += 8. / steps * sigma_s * phase * I / (r * r) * std::exp(-sigma_t * (z + 3 + r));
+            wanted +=
+                8. / steps * sigma_s * henyey_greenstein(g, cosine) * I / (r * r) * std::exp(-sigma_t * (z + 3 + r));
         }
         for (char const* integrator : {"path", "reference_path"}) {
             auto const [mean, error] = test::measured(test::rendered(*scene, integrator, {.spp = 1 << 13, .seed = 9}));
@@ -140,15 +152,6 @@ Film rendered_without_beams(Scene& scene, RenderSettings const& settings) {
     Film film = make_film(scene);
     render(scene, plan, *make_integrator("path", scene, plan), settings, film);
     return film;
-}
-
-std::string haze(double sigma_s, double g) {
-    return fmt::format(R"("medium": {{ "scattering_per_m": {}, "absorption_per_m": 0.05, "asymmetry": {} }})", sigma_s,
-                       g);
-}
-
-double henyey_greenstein(double g, double cosine) {
-    return (1 - g * g) / (4 * pi_double) / std::pow(1 + g * g - 2 * g * cosine, 1.5);
 }
 
 }  // namespace
@@ -293,8 +296,8 @@ double fluence_in_fog(double c, double r) {
 
 }  // namespace
 
-// What arrives from all directions but the lamp's own, without a wall anywhere: half of it has been scattered more
-// often than five times, and paths that go astray must count for those that are given up.
+// What arrives from all directions but the lamp's own, without a wall anywhere. Paths go astray, and those that return
+// must count for those that were given up.
 TEST_CASE("endless fog around a lamp glows as transport theory says", "[law]") {
     double const c = .95, sigma_t = 2, r = 1.5;
     double absorbed = 0;  // light is conserved
