@@ -93,15 +93,22 @@ class Accelerator {
 // The time stamp counter, or 0 where there is none.
 std::uint64_t processor_ticks();
 
-// A place off the surface, on the side of `direction`: 64 units in the last place of the largest coordinate, or of the
-// point's size, away (a point computed from barycentrics errs by 3 to 20). A ray from there neither hits nor skips its
-// own surface. [Wächter 2019]
+// How far off a surface rays start: 64 units in the last place of the largest coordinate, or of the point's size (a
+// point computed from barycentrics errs by 3 to 20). A ray from there neither hits nor skips its own surface.
+// [Wächter 2019]
 inline constexpr float usual_size = 1e-4f;  // m: points near the origin are as uncertain as if they were there
+inline float uncertainty(Vector const& place, float size) {
+    constexpr float units = 64 * std::numeric_limits<float>::epsilon();
+    return units * std::max(place.cwiseAbs().maxCoeff(), size > 0 ? size : usual_size);
+}
+
+// From the point to a place off the surface, on the side of `direction`.
+[[gnu::always_inline]] inline Vector step_off_surface(SurfacePoint const& point, Direction const& direction) {
+    float const offset = uncertainty(point.position, point.size);
+    return (direction.dot(point.geometric_normal) >= 0 ? offset : -offset) * point.geometric_normal;
+}
 [[gnu::always_inline]] inline Vector off_surface(SurfacePoint const& point, Direction const& direction) {
-    float const largest = std::max(point.position.cwiseAbs().maxCoeff(), point.size > 0 ? point.size : usual_size);
-    float const offset = 64 * std::numeric_limits<float>::epsilon() * largest;
-    float const side = direction.dot(point.geometric_normal) >= 0 ? offset : -offset;
-    return point.position + side * point.geometric_normal;
+    return point.position + step_off_surface(point, direction);
 }
 
 // A ray leaving `point` along `direction`.
@@ -109,14 +116,22 @@ inline constexpr float usual_size = 1e-4f;  // m: points near the origin are as 
     return {off_surface(point, direction), direction};
 }
 
-// The same towards a place `distance` away, ending just before it.
-inline Ray shadow_ray(Vector const& from, Direction const& direction, float distance) {
-    constexpr float shortening = 1e-4f;  // relative: keeps the light's own surface out
-    return {from, direction, 0, distance * (1 - shortening)};
+// Towards a place `distance` away, ending just before it: the surface there is as uncertain as the one left.
+inline Ray shadow_ray(Vector const& from, Direction const& direction, float distance, float uncertain) {
+    constexpr float shortening = 1e-4f;  // relative: distances err as well
+    return {from, direction, 0, std::max(0.0f, distance * (1 - shortening) - uncertain)};
 }
+inline Ray shadow_ray(Vector const& from, Direction const& direction, float distance) {
+    return shadow_ray(from, direction, distance, uncertainty(from, 0));
+}
+// The same from a surface. The step off it is nearer to the place, or past it beside a lamp: so it is aimed at anew.
 [[gnu::always_inline]] inline Ray spawn_shadow_ray(SurfacePoint const& point, Direction const& direction,
                                                    float distance) {
-    return shadow_ray(off_surface(point, direction), direction, distance);
+    Vector const step = step_off_surface(point, direction), origin = point.position + step;
+    if (!(distance < infinity)) return {origin, direction};
+    Vector const to = distance * direction - step;
+    float const length = to.norm();
+    return shadow_ray(origin, to / length, length, uncertainty(point.position, point.size));
 }
 
 }  // namespace iride

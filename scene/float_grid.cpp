@@ -35,11 +35,8 @@ std::optional<std::string> remark_on_float_grid(Scene const& scene) {
     }
     float const largest = std::max(scene.accelerator->lower_bound().cwiseAbs().maxCoeff(),
                                    scene.accelerator->upper_bound().cwiseAbs().maxCoeff());
-    SurfacePoint at{};
-    at.position = Vector::Constant(largest);
-    at.geometric_normal = Vector(0, 0, 1);
     float const grid = largest * std::numeric_limits<float>::epsilon(),
-                offset = off_surface(at, at.geometric_normal).z() - largest;
+                offset = uncertainty(Vector::Constant(largest), 0);
     constexpr float tolerable = 0.01f;  // of the smallest object
     if (!(offset > tolerable * smallest)) return std::nullopt;
     return fmt::format(

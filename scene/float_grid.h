@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Coordinates are floats: far from the origin they lie coarsely, and rays start coarsely off surfaces there
-// (off_surface). A scene whose smallest object is not much larger than that is told so.
+// (uncertainty). A scene whose smallest object is not much larger than that is told so.
 #pragma once
 
 #include <optional>
