@@ -21,7 +21,7 @@ namespace iride {
 namespace {
 
 constexpr char const* first_words = "iride checkpoint ";  // and the format's number
-constexpr char const* format = "3";
+constexpr char const* format = "4";
 constexpr int largest_side = 1 << 16;          // pixels
 constexpr std::size_t longest_head = 1 << 16;  // bytes
 static_assert(sizeof(FilmPixel) == 10 * sizeof(double) + 4 * sizeof(std::uint32_t), "a pixel has no padding");
@@ -267,8 +267,6 @@ std::vector<std::string> obstacles_to_merging(Checkpoint const& a, Checkpoint co
     std::vector<std::string> all = differing(a, b, [](std::string const& key) {
         return matters(key) && key != "seed" && key != "first sample" && key != "crop" && key != "sampler";
     });
-    if (a.films.front().splats() && !(a.films.front().place() == b.films.front().place()))
-        all.emplace_back("light paths belong to the whole picture, and its window is another");
     if (all.empty() && share_samples(a, b))
         all.push_back(fmt::format("both have the same samples of some pixels: seed {}, from {} and from {}",
                                   a.settings.seed, a.settings.first_sample, b.settings.first_sample));

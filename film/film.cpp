@@ -165,9 +165,14 @@ std::size_t Film::band_offset(int x, int y) const {
            static_cast<std::size_t>(bands_->count);
 }
 
+double Film::share_of_splats(int x, int y) const {
+    FilmPixel const& p = pixels_.at(x, y);
+    return p.count == 0 ? 1 : splats_->accompanied(x, y) / p.weight;
+}
+
 Xyz Film::mean(int x, int y) const {
     FilmPixel const& p = pixels_.at(x, y);
-    Xyz const light = splats_ ? splats_->mean(x, y) : Xyz{};
+    Xyz const light = splats_ ? share_of_splats(x, y) * splats_->mean(x, y) : Xyz{};
     if (p.count == 0) return light;
     return {p.sum[0] / p.weight + light.X, p.sum[1] / p.weight + light.Y, p.sum[2] / p.weight + light.Z};
 }
@@ -180,14 +185,15 @@ Xyz Film::variance(int x, int y) const {
         double const mean = p.sum[c] / p.weight;
         return std::max(0.0, p.sum_of_squares[c] / p.weight - mean * mean) / (p.count - 1);
     };
-    Xyz const light = splats_ ? splats_->variance(x, y) : Xyz{};
+    Xyz const light = splats_ ? square(share_of_splats(x, y)) * splats_->variance(x, y) : Xyz{};
     return {of(0) + light.X, of(1) + light.Y, of(2) + light.Z};
 }
 
 MatrixDouble Film::covariance(int x, int y) const {
     FilmPixel const& p = pixels_.at(x, y);
     Xyz const v = variance(x, y);
-    MatrixDouble m = splats_ ? splats_->covariance(x, y) : MatrixDouble(MatrixDouble::Zero());
+    MatrixDouble m = MatrixDouble::Zero();
+    if (splats_) m = square(share_of_splats(x, y)) * splats_->covariance(x, y);
     m.diagonal() = to_vector(v);
     if (p.count < 2) return m;
     double const n = p.count, w = p.weight;
@@ -201,7 +207,8 @@ MatrixDouble Film::covariance(int x, int y) const {
 }
 
 double Film::band(int x, int y, int band) const {
-    double const weight = pixels_.at(x, y).weight, light = splats_ ? splats_->band(x, y, band) : 0;
+    double const weight = pixels_.at(x, y).weight,
+                 light = splats_ ? share_of_splats(x, y) * splats_->band(x, y, band) : 0;
     return (weight > 0 ? band_sum_[band_offset(x, y) + static_cast<std::size_t>(band)] / weight : 0) + light;
 }
 

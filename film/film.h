@@ -73,13 +73,17 @@ class Film {
 
     // Add one sample to pixel (x, y). Calls for different pixels may run at the same time.
     void add(int x, int y, Wavelengths const& wavelengths, Radiance const& radiance, std::uint32_t weight = 1);
-    // Light paths add to any pixel, from any thread, once there is a layer for it; means and variances then include it.
+    // Light paths add to any pixel, from any thread, once there is a layer for it; means and variances then include it,
+    // for the samples that one goes with. (The camera's means with and without differ, and as samples of both are in
+    // one sum, its variance then is a little too high.)
     void add_splat_layer() {
         if (!splats_) splats_.emplace(width(), height(), bands_ ? bands_->count : 0);
     }
     // With the weight of the sample that the light path goes with.
     void splat(int x, int y, Wavelengths const& wavelengths, Radiance const& radiance, std::uint32_t weight = 1);
-    void count_light_path(std::uint32_t weight = 1) { splats_->count_path(weight); }
+    // Of the sample that was added to pixel (x, y) last, and of light paths: what goes with what.
+    void accompany(int x, int y, std::uint32_t weight = 1) { splats_->accompany(x, y, weight); }
+    void count_light_paths(std::uint64_t count, std::uint32_t weight = 1) { splats_->count_paths(count, weight); }
     // Count a sample that is dropped; the pixel's mean is over the samples added.
     void reject(int x, int y, Rejection cause);
     // Add the sums of another film of the same picture, wherever in it that film lies inside this one; splats, which
@@ -130,6 +134,8 @@ class Film {
     template <class Add>
     void for_bands(Wavelengths const& wavelengths, Power const& power, Add&& add) const;
     std::size_t band_offset(int x, int y) const;
+    // Of the mean of light paths, what the pixel's samples lack; without any, all.
+    double share_of_splats(int x, int y) const;
 
     Image<FilmPixel> pixels_;
     FilmPlace place_;

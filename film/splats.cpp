@@ -56,10 +56,10 @@ void Splats::add_to_band(int x, int y, int band, double value) {
     band_sum_[index(x, y) * band_count_ + static_cast<std::size_t>(band)].add(value / pixel_count());
 }
 
-void Splats::count_path(std::uint32_t weight) {
-    std::int64_t const w = weight;
-    add_atomically(weight_, w);
-    add_atomically(squared_weight_, w * w);
+void Splats::count_paths(std::uint64_t count, std::uint32_t weight) {
+    auto const n = static_cast<std::int64_t>(count), w = static_cast<std::int64_t>(weight);
+    add_atomically(weight_, n * w);
+    add_atomically(squared_weight_, n * w * w);
 }
 void Splats::reject() { add_atomically(rejected_, 1); }
 
@@ -74,7 +74,7 @@ Xyz Splats::mean(int x, int y) const {
 MatrixDouble Splats::covariance(int x, int y) const {
     MatrixDouble m = MatrixDouble::Zero();
     if (weight_ == 0) return m;
-    auto const& [sum, sum_of_squares, sum_of_products] = pixels_[index(x, y)];
+    auto const& [sum, sum_of_squares, sum_of_products, accompanied] = pixels_[index(x, y)];
     double const per_path = static_cast<double>(squared_weight_) / square(static_cast<double>(weight_)),
                  scale = square(pixels_per_weight());
     for (std::size_t c = 0; c < 3; ++c) {
@@ -95,9 +95,11 @@ Xyz Splats::variance(int x, int y) const {
 void Splats::add(Splats const& other) {
     check(other.pixels_.size() == pixels_.size() && other.band_sum_.size() == band_sum_.size(),
           "splats are added up of pictures of one size and one set of bands");
-    for (std::size_t i = 0; i < pixels_.size(); ++i)
+    for (std::size_t i = 0; i < pixels_.size(); ++i) {
         for (auto sums : {&Pixel::sum, &Pixel::sum_of_squares, &Pixel::sum_of_products})
             for (std::size_t c = 0; c < 3; ++c) (pixels_[i].*sums)[c] += (other.pixels_[i].*sums)[c];
+        pixels_[i].accompanied += other.pixels_[i].accompanied;
+    }
     for (std::size_t i = 0; i < band_sum_.size(); ++i) band_sum_[i] += other.band_sum_[i];
     weight_ += other.weight_;
     squared_weight_ += other.squared_weight_;

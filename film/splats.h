@@ -5,7 +5,9 @@
 // over the number of pixels n, and W = sum w over all light paths,
 //   mean = n / W sum v,   covariance of the mean = (n / W)^2 (sum v v' - sum v sum v' sum w^2 / W^2)
 // with v, v' of X, Y, Z,
-// as if the splats of one light path to one pixel were independent of one another.
+// as if the splats of one light path to one pixel were independent of one another. A camera sample that no light path
+// goes with lacks nothing that one would add: a pixel of which samples of weight a do, of W' together, has a / W' of
+// this mean.
 #pragma once
 
 #include <array>
@@ -25,7 +27,10 @@ class Splats {
     // value beyond the largest.
     bool add(int x, int y, Xyz const& value);
     void add_to_band(int x, int y, int band, double value);
-    void count_path(std::uint32_t weight = 1);
+    void count_paths(std::uint64_t count, std::uint32_t weight = 1);  // of this weight each
+    // A sample of this pixel that a light path goes with; one thread for each pixel.
+    void accompany(int x, int y, std::uint32_t weight) { pixels_[index(x, y)].accompanied += weight; }
+    double accompanied(int x, int y) const { return pixels_[index(x, y)].accompanied; }  // weight together
     void reject();  // count a splat that is dropped
     std::uint64_t rejected() const { return static_cast<std::uint64_t>(rejected_); }
 
@@ -63,6 +68,7 @@ class Splats {
     struct Pixel {
         std::array<Sum, 3> sum, sum_of_squares;  // X, Y, Z
         std::array<Sum, 3> sum_of_products;      // XY, YZ, ZX
+        double accompanied = 0;
     };
     std::size_t index(int x, int y) const {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);

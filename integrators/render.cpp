@@ -54,7 +54,8 @@ class Batch {
         if (count_ == 0) return;
         integrator_.follow(scene_, std::span(paths_).first(count_), statistics_.rays);
         for (std::size_t i = 0; i < count_; ++i) deposit(origin_[i], paths_[i]);
-        count_ = 0;
+        if (splats_) film_.count_light_paths(light_paths_, weight_);
+        count_ = light_paths_ = 0;
         if (statistics_.rays.timed) statistics_.timed_ticks += processor_ticks() - started_;
     }
 
@@ -84,12 +85,13 @@ class Batch {
             film_.reject(p.x, p.y, *cause);
         else
             film_.add(p.x, p.y, path.wavelengths, path.radiance, weight_);
+        if (splats_ && !cause) film_.accompany(p.x, p.y, weight_);
         if (groups_ && cause)
             groups_->reject(p.x, p.y, *cause);
         else if (groups_)
             groups_->add(p.x, p.y, path.wavelengths, path.shares);
         if (!splats_ || !path.complete) return;
-        film_.count_light_path(weight_);
+        ++light_paths_;
         for (Splat const& splat : path.splats)
             starter_.spread(splat, [&](int x, int y, float weight) {
                 film_.splat(x, y, path.wavelengths, splat.radiance * weight, weight_);
@@ -107,7 +109,7 @@ class Batch {
     ThreadStatistics& statistics_;
     std::array<CameraPath, batch_size> paths_;
     std::array<Pixel, batch_size> origin_;
-    std::size_t count_ = 0;
+    std::size_t count_ = 0, light_paths_ = 0;
     std::uint64_t started_ = 0;
 };
 
@@ -197,7 +199,6 @@ Film make_film(Scene const& scene, std::optional<Crop> const& crop) {
 
 RenderReport render(Scene const& scene, RenderPlan const& plan, Integrator& integrator, RenderSettings const& settings,
                     Film& film) {
-    if (integrator.splats()) film.add_splat_layer();
     Loop loop(scene, plan, integrator, settings, film);
     RenderReport report;
     std::uint64_t const paths_before = film.total_samples();
@@ -224,6 +225,7 @@ RenderReport render(Scene const& scene, RenderPlan const& plan, Integrator& inte
         arena.execute([&] {
             integrator.prepare(scene, {settings.seed, settings.first_sample + first, settings.first_sample + last},
                                report.rays);
+            if (integrator.splats()) film.add_splat_layer();
             tbb::parallel_for(0, loop.tile_count(), [&](int i) {
                 if (loop.stopped()) return;
                 int const tile = settings.reversed_tiles ? loop.tile_count() - 1 - i : i;
