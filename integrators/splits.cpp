@@ -1,24 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "integrators/splits.h"
 
-#include <tbb/parallel_for.h>
-
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
 #include "film/compare.h"
-#include "film/film.h"
 #include "integrators/around.h"
 
 namespace iride {
 
 namespace {
 
-constexpr int most_blocks = 128;  // along the picture's longer side
-constexpr int most_sighted = 32;  // along either side, of those in which light paths are seen
-constexpr int side = 2;           // of a block's pilot: 2 x 2 places
 // The first sample is whole and goes without light paths, unless their number was asked for: often it is enough. Fewer
 // paths tell less of a noise that few paths make: a stage looks closer, or four times as often.
 struct Stage {
@@ -33,177 +28,26 @@ constexpr int any_number = std::numeric_limits<int>::max();
 constexpr double early = 1.35;
 constexpr std::array<Stage, 4> stages{
     {{0, 0, 0, 1, 1}, {1, 16, 2, 4, early}, {4, 16, 8, 8, early}, {16, 8, 8, any_number, 1}}};
-constexpr std::uint64_t pilot_seed = 0x5911;
 constexpr double first_part = 0.15;  // of a path's time: up to its first vertex (measured)
 // Of the noise that parts of a path share, from its place and wavelengths: both are stratified, it soon falls faster.
 constexpr double shared_part = 0.1;
 constexpr double light_ray = 1.5;  // what a ray of a light path costs, in rays of camera paths (measured)
-// What a sample with light paths is worth beside one without, in scenes with caustics (measured: 3 to 8).
-constexpr double worth_of_light_paths = 4;
 
-// What a block of pixels has to say.
+// What a block of pixels has to say of splitting.
 struct Pilot {
-    double apart = 0;              // relative variance between parts of one path
-    double shared = 0;             // between paths, without that
-    double rays = 0;               // of a part
-    Eigen::Array3d mean{0, 0, 0};  // X, Y, Z
+    double apart = 0;   // relative variance between parts of one path
+    double shared = 0;  // between paths, without that
+    double rays = 0;    // of a part
 };
-
-constexpr int paths_of_block = 2 * side * side;
-
-// Colours of the paths of a row of blocks, that are taken two and two as parts of one.
-class Pairs {
-  public:
-    Pairs(Scene const& scene, int blocks, int rounds)
-        : film_(paths_of_block, rounds * blocks, cie1931_2deg(), scene.grid), rounds_(rounds) {}
-    void add(int path, int round, int block, CameraPath const& p) {
-        if (p.complete && is_finite(p.radiance)) film_.add(path, block * rounds_ + round, p.wavelengths, p.radiance);
-    }
-    Pilot result(int block, double rays) const {
-        Eigen::Array3d sum(0, 0, 0), apart(0, 0, 0), between(0, 0, 0);
-        for (int i = 0; i < paths_of_block; i += 2) {
-            Eigen::Array3d before(0, 0, 0);
-            for (int r = 0; r < rounds_; ++r) {
-                Eigen::Array3d const a = colour(i, r, block), b = colour(i + 1, r, block), both = (a + b) / 2;
-                sum += both;
-                apart += (a - b).square() / 2;
-                if (r > 0) between += (both - before).square() / 2;
-                before = both;
-            }
-        }
-        constexpr double places = side * side;
-        double const paths = places * rounds_;
-        apart /= paths;
-        between = between / (places * (rounds_ - 1)) - apart / 2;
-        Eigen::Array3d const mean = sum / paths, measure = mean.square() + relmse_floor;
-        return {(apart / measure).mean(), (between / measure).mean(), rays / (2 * paths), mean};
-    }
-
-  private:
-    Eigen::Array3d colour(int path, int round, int block) const {
-        return to_vector(film_.mean(path, block * rounds_ + round)).array();
-    }
-    Film film_;
-    int rounds_;
-};
-
-// The blocks of a pilot, each with the same number of paths: two parts of one follow each other.
-class Blocks {
-  public:
-    using Paths = std::array<CameraPath, paths_of_block>;
-
-    Blocks(Scene const& scene, int least_side, int rounds_of_each, PathStarter const& starter)
-        : rounds(rounds_of_each), width_(scene.film.width), height_(scene.film.height), starter_(starter) {
-        int const block = std::max(least_side, (std::max(width_, height_) + most_blocks - 1) / most_blocks);
-        columns = std::max(1, width_ / block), rows = std::max(1, height_ / block);
-    }
-    // use(paths, round) for each round of block (x, y).
-    template <class Use>
-    void for_each_round(int x, int y, Use&& use) const {
-        Paths paths;
-        int const x0 = width_ * x / columns, x1 = width_ * (x + 1) / columns, y0 = height_ * y / rows,
-                  y1 = height_ * (y + 1) / rows;
-        for (int round = 0; round < rounds; ++round) {
-            for (int i = 0; i < paths_of_block; ++i) {
-                CameraPath& path = paths[static_cast<std::size_t>(i)];
-                starter_.start(x0 + (x1 - x0) * (i / 2 % side) / side, y0 + (y1 - y0) * (i / 2 / side) / side,
-                               static_cast<std::uint32_t>(round), path);
-                path.sampler.split(static_cast<std::uint32_t>(i % 2), 2);
-            }
-            use(paths, round);
-        }
-    }
-    template <class Use>
-    void for_each_row(Use&& use) const {
-        tbb::parallel_for(0, rows, use);
-    }
-
-    int columns, rows, rounds;
-
-  private:
-    int width_, height_;
-    PathStarter const& starter_;
-};
-
-Image<Pilot> pilot_of(Scene const& scene, Blocks const& blocks, FollowPaths const& follow, RayStatistics& all) {
-    Image<Pilot> pilot(blocks.columns, blocks.rows);
-    std::vector<RayStatistics> of_row(static_cast<std::size_t>(blocks.rows));
-    Pairs const none(scene, blocks.columns, blocks.rounds);
-    blocks.for_each_row([&](int y) {
-        Pairs pairs = none;
-        for (int x = 0; x < blocks.columns; ++x) {
-            RayStatistics statistics;
-            blocks.for_each_round(x, y, [&](Blocks::Paths& paths, int round) {
-                follow(paths, statistics);
-                for (int i = 0; i < paths_of_block; ++i) pairs.add(i, round, x, paths[static_cast<std::size_t>(i)]);
-            });
-            pilot.at(x, y) = pairs.result(x, static_cast<double>(statistics.rays()));
-            of_row[static_cast<std::size_t>(y)].add(statistics);
-        }
-    });
-    for (RayStatistics const& row : of_row) all.add(row);
-    return pilot;
-}
-
-// What light paths show, in blocks that may be larger: each row of a pilot sees all of them.
-class Sighted {
-  public:
-    Sighted(Scene const& scene, Blocks const& blocks)
-        : film_(std::min(most_sighted, blocks.columns), std::min(most_sighted, blocks.rows), cie1931_2deg(),
-                scene.grid),
-          columns_per_pixel_(static_cast<double>(film_.width()) / scene.film.width),
-          rows_per_pixel_(static_cast<double>(film_.height()) / scene.film.height),
-          pixels_(static_cast<double>(scene.film.width) * scene.film.height) {}
-
-    void add(CameraPath const& path, PathStarter const& starter) {
-        ++paths_;
-        for (Splat const& splat : path.splats)
-            starter.spread(splat, [&](int x, int y, float weight) {
-                if (is_finite(splat.radiance))
-                    film_.add(static_cast<int>(x * columns_per_pixel_), static_cast<int>(y * rows_per_pixel_),
-                              path.wavelengths, splat.radiance * weight);
-            });
-    }
-    void add(Sighted const& other) {
-        film_.add(other.film_);
-        rays.add(other.rays);
-        paths_ += other.paths_;
-    }
-    int width() const { return film_.width(); }
-    int height() const { return film_.height(); }
-    // What a light path for each pixel brings to one of block (x, y): few hit it, so the variance is the mean square.
-    Eigen::Array3d mean(int x, int y) const { return of_pixel(film_.pixel(x, y).sum); }
-    Eigen::Array3d variance(int x, int y) const { return of_pixel(film_.pixel(x, y).sum_of_squares) / pixels_; }
-    double rays_of_path() const { return static_cast<double>(rays.rays()) / paths_; }
-
-    RayStatistics rays;
-
-  private:
-    Eigen::Array3d of_pixel(std::array<double, 3> const& sum) const {
-        return Eigen::Array3d(sum[0], sum[1], sum[2]) * (columns_per_pixel_ * rows_per_pixel_ / paths_);
-    }
-    Film film_;
-    double columns_per_pixel_, rows_per_pixel_, pixels_, paths_ = 0;
-};
-
-Sighted sighted_by(Scene const& scene, Blocks const& blocks, LightPathsBeside const& beside, Splits const& splits,
-                   PathStarter const& starter) {
-    std::vector<Sighted> of_row(static_cast<std::size_t>(blocks.rows), Sighted(scene, blocks));
-    blocks.for_each_row([&](int y) {
-        Sighted& row = of_row[static_cast<std::size_t>(y)];
-        for (int x = 0; x < blocks.columns; ++x)
-            blocks.for_each_round(x, y, [&](Blocks::Paths& paths, int) {
-                beside.follow(paths, splits, row.rays);
-                for (CameraPath const& path : paths) row.add(path, starter);
-            });
-    });
-    for (std::size_t row = 1; row < of_row.size(); ++row) of_row[0].add(of_row[row]);
-    return std::move(of_row[0]);
+Pilot pilot_of(BlockNoise const& noise) {
+    Eigen::Array3d const measure = noise.mean.square() + relmse_floor;
+    return {(noise.apart / measure).mean(), (noise.shared / measure).mean(), noise.rays};
 }
 
 // Few paths see little: what one block finds its neighbours may have missed.
-Image<Pilot> spread(Image<Pilot> const& found) {
-    Image<Pilot> out(found.width, found.height);
+Image<Pilot> spread(Image<BlockNoise> const& noise) {
+    Image<Pilot> found(noise.width, noise.height), out(noise.width, noise.height);
+    std::ranges::transform(noise.pixel, found.pixel.begin(), pilot_of);
     for (int y = 0; y < found.height; ++y)
         for (int x = 0; x < found.width; ++x) {
             Pilot sum;
@@ -211,7 +55,7 @@ Image<Pilot> spread(Image<Pilot> const& found) {
                 sum.apart += p.apart, sum.shared += p.shared, sum.rays += p.rays;
             });
             out.at(x, y) = {std::max(found.at(x, y).apart, sum.apart / count), std::max(0.0, sum.shared / count),
-                            sum.rays / count, found.at(x, y).mean};
+                            sum.rays / count};
         }
     return out;
 }
@@ -261,36 +105,13 @@ double best_factor(Image<Pilot> const& pilot, int most, double pays) {
     return best;
 }
 
-// What camera paths bring to each block of `sighted`, and light paths around it.
-Image<Eigen::Array3d> mean_around(Image<Pilot> const& pilot, Sighted const& sighted) {
-    Image<Eigen::Array3d> shown(sighted.width(), sighted.height()), mean(shown.width, shown.height);
-    Image<int> count(shown.width, shown.height);
-    std::ranges::fill(mean.pixel, Eigen::Array3d(0, 0, 0));
-    for (int y = 0; y < pilot.height; ++y)
-        for (int x = 0; x < pilot.width; ++x) {
-            int const u = x * mean.width / pilot.width, v = y * mean.height / pilot.height;
-            mean.at(u, v) += pilot.at(x, y).mean;
-            ++count.at(u, v);
-        }
-    for (int y = 0; y < shown.height; ++y)
-        for (int x = 0; x < shown.width; ++x) shown.at(x, y) = sighted.mean(x, y);
-    for (int y = 0; y < mean.height; ++y)
-        for (int x = 0; x < mean.width; ++x) {
-            Eigen::Array3d around(0, 0, 0);
-            int const cells = for_each_around(shown, x, y, 1, [&](Eigen::Array3d const& one) { around += one; });
-            mean.at(x, y) = mean.at(x, y) / count.at(x, y) + around / cells;
-        }
-    return mean;
-}
-
 // Of camera paths, that light paths of which `sighted` saw some, with a share of their own, should go with.
-float best_share(Image<Pilot> const& pilot, Cost const& parts, Sighted const& sighted, float share) {
-    Image<Eigen::Array3d> const mean = mean_around(pilot, sighted);
-    double error = 0;
+float best_share(Image<BlockNoise> const& noise, Cost const& parts, Sighted const& sighted, float share) {
+    Image<Eigen::Array3d> const mean = mean_around(each(noise, &BlockNoise::mean), sighted);
+    Image<Eigen::Array3d> variance(mean.width, mean.height);
     for (int y = 0; y < mean.height; ++y)
-        for (int x = 0; x < mean.width; ++x)
-            error += (sighted.variance(x, y) / (mean.at(x, y).square() + relmse_floor)).mean();
-    error /= static_cast<double>(mean.pixel.size());
+        for (int x = 0; x < mean.width; ++x) variance.at(x, y) = sighted.variance(x, y);
+    double const error = relative_noise(variance, mean);
     double const time = light_ray * sighted.rays_of_path();
     if (!(time > 0 && parts.error > 0)) return share;
     double const best = static_cast<double>(share) * std::sqrt(error / time * parts.time / parts.error);
@@ -324,9 +145,10 @@ LearntSplits SplitPilot::learn(Scene const& scene, std::uint32_t sample, FollowP
     weight_ = 1;
     Stage const& stage = stages[static_cast<std::size_t>(latest_)];
     if (stage.rounds == 0) return {{}, beside.follow ? std::optional(0.0f) : std::nullopt};
-    if (!starter_) starter_.emplace(scene, plan_, scene.film.width, scene.film.height, SamplerKind::sobol, pilot_seed);
-    Blocks const blocks(scene, stage.block, stage.rounds, *starter_);
-    Image<Pilot> const pilot = spread(pilot_of(scene, blocks, follow, statistics));
+    if (!starter_) starter_.emplace(scene, plan_, PilotStarter::Pairs::parts);
+    PilotBlocks const blocks(scene, stage.block);
+    Image<BlockNoise> const noise = noise_of(scene, blocks, stage.rounds, *starter_, follow, statistics);
+    Image<Pilot> const pilot = spread(noise);
     int const most = std::min(most_, stage.most);
     double const factor = best_factor(pilot, most, stage.pays);
     LearntSplits learnt;
@@ -339,9 +161,12 @@ LearntSplits SplitPilot::learn(Scene const& scene, std::uint32_t sample, FollowP
         learnt.splits = Splits(std::move(parts), scene.film.width, scene.film.height);
     }
     if (beside.follow) {
-        Sighted const sighted = sighted_by(scene, blocks, beside, learnt.splits, *starter_);
-        statistics.add(sighted.rays);
-        learnt.light_paths = best_share(pilot, cost_of(pilot, factor, most), sighted, beside.share);
+        Sighted sighted(scene, blocks);
+        auto const light_paths = [&](std::span<CameraPath> paths, RayStatistics& rays) {
+            beside.follow(paths, learnt.splits, rays);
+        };
+        noise_of(scene, blocks, stage.rounds, *starter_, light_paths, statistics, &sighted);
+        learnt.light_paths = best_share(noise, cost_of(pilot, factor, most), sighted, beside.share);
         worth *= worth_of_light_paths;
     }
     weight_ = static_cast<std::uint32_t>(std::lround(worth));

@@ -10,13 +10,16 @@
 //   s = sqrt(u T / (c E))                                                                  [Bolin 1997] [Rath 2022]
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <optional>
 
-#include "film/image.h"
-#include "integrators/camera_path.h"
+#include "integrators/pilot.h"
 
 namespace iride {
+
+// What a sample with light paths is worth beside one without, in scenes with caustics (measured: 3 to 8).
+inline constexpr double worth_of_light_paths = 4;
 
 class Splits {
   public:
@@ -38,9 +41,6 @@ class Splits {
     Image<std::uint8_t> parts_;
     float columns_per_pixel_ = 0, rows_per_pixel_ = 0;
 };
-
-// Follows paths that are not split.
-using FollowPaths = std::function<void(std::span<CameraPath>, RayStatistics&)>;
 
 // The light paths that go with a share of camera paths that are split; none if `follow` is empty.
 struct LightPathsBeside {
@@ -65,7 +65,7 @@ class SplitPilot {
     bool is_due(std::uint32_t sample) const { return stage_of(sample) != latest_; }
     // Of each sample split as found: about the reciprocal of its variance.
     std::uint32_t weight() const { return weight_; }
-    // A function of scene, plan and stage alone.
+    // A function of scene, plan and stage alone. `follow`: paths that are not split.
     LearntSplits learn(Scene const& scene, std::uint32_t sample, FollowPaths const& follow,
                        LightPathsBeside const& beside, RayStatistics& statistics);
 
@@ -73,7 +73,7 @@ class SplitPilot {
     static int stage_of(std::uint32_t sample);
 
     RenderPlan plan_;
-    std::optional<PathStarter> starter_;  // of all pilots, made for the first
+    std::optional<PilotStarter> starter_;  // of all pilots, made for the first
     int most_;
     int latest_ = -1;
     std::uint32_t weight_ = 1;
