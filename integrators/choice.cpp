@@ -8,13 +8,10 @@
 
 #include "integrators/light_emission_choice.h"
 #include "integrators/light_tracing.h"
-#include "integrators/path.h"
 
 namespace iride {
 
 namespace {
-
-constexpr int usual_splits = 16;
 
 bool is_one_of(std::string const& type, std::span<char const* const> types) {
     return std::ranges::any_of(types, [&](char const* t) { return type == t; });
@@ -28,20 +25,15 @@ bool receives_caustics(NamedMaterial const& m) {
 }  // namespace
 
 AutomaticChoice choose_integrator(Scene const& scene, RenderPlan const& plan) {
-    if (!plan.no_light_paths.empty()) return {"path", plan.no_light_paths};
+    if (!plan.no_light_paths.empty()) return {"path", plan.no_light_paths, false};
     std::string const hindrance = why_no_light_paths(scene, plan);
-    if (!hindrance.empty()) return {"path", hindrance};
+    if (!hindrance.empty()) return {"path", hindrance, false};
+    bool const trial = !plan.environment && !plan.ray_cones;
     std::string const from = names_of(scene, throws_caustics), onto = names_of(scene, receives_caustics);
-    if (from.empty() || onto.empty()) return {"path", "no mirror or glass throws light at a diffuse surface"};
-    if (plan.environment) return {"path", "light from infinity: most of it comes without a caustic"};
-    if (!AimedEmission(scene).has_targets()) return {"path", "no lamp of a place shines at a mirror or a glass"};
-    return {"caustic-path", fmt::format("caustics of {} on {}", from, onto)};
-}
-
-std::unique_ptr<Integrator> make_auto(Scene const& scene, RenderPlan const& plan, IntegratorOptions& options) {
-    int const splits = plan.whole_paths ? 1 : usual_splits;
-    bool const caustics = choose_integrator(scene, plan).name == "caustic-path";
-    return (caustics ? caustic_path_in_parts : path_in_parts)(scene, plan, options, splits);
+    if (from.empty() || onto.empty()) return {"path", "no mirror or glass throws light at a diffuse surface", trial};
+    if (plan.environment) return {"path", "light from infinity: most of it comes without a caustic", false};
+    if (!AimedEmission(scene).has_targets()) return {"path", "no lamp of a place shines at a mirror or a glass", trial};
+    return {"caustic-path", fmt::format("caustics of {} on {}", from, onto), trial};
 }
 
 }  // namespace iride

@@ -6,8 +6,8 @@
 #include <array>
 
 #include "integrators/ambient_occlusion.h"
+#include "integrators/automatic.h"
 #include "integrators/bidirectional.h"
-#include "integrators/choice.h"
 #include "integrators/light_tracing.h"
 #include "integrators/path.h"
 #include "integrators/photon/photon_integrators.h"
@@ -25,7 +25,8 @@ constexpr std::array<IntegratorEntry, 16> table{{
     {"reference_path", "path tracing by scattering alone: slow, the oracle of the others", make_reference_path,
      MediaKnown::scattering},
     {"auto",
-     "the default: path or caustic-path, whichever suits the scene, split where it is noisy (`iride plan` says why)",
+     "the default: path or caustic-path, whichever suits the scene, split where it is noisy, later bidirectional-power "
+     "where that is better (`iride plan` says why)",
      make_auto, MediaKnown::scattering},
     {"light-tracing", "paths from the lights, shown to the camera: caustics, but no mirror images", make_light_tracing,
      MediaKnown::between_bodies},

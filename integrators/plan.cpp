@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 
+#include "integrators/automatic.h"
 #include "integrators/choice.h"
 #include "integrators/layers.h"
 
@@ -259,8 +260,11 @@ RenderPlan make_plan(Scene const& scene) {
                             : "none: Russian roulette ends paths without bias");
     AutomaticChoice const choice = choose_integrator(scene, plan);
     decide("integrator auto", true,
-           fmt::format("{}: {}; paths are {}", choice.name, choice.reason,
-                       plan.whole_paths ? "not split" : "split where a pilot finds noise"));
+           fmt::format("{}: {}; paths are {}{}", choice.name, choice.reason,
+                       plan.whole_paths ? "not split" : "split where a pilot finds noise",
+                       choice.trial ? fmt::format("; after {} samples bidirectional-power, if a trial finds it better",
+                                                  samples_before_trial)
+                                    : ""));
     return plan;
 }
 
