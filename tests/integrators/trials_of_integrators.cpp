@@ -73,8 +73,7 @@ bool brings_splats(Scene const& scene, std::uint32_t first_sample) {
 
 }  // namespace
 
-// Fails if the noise of splats is left out, or counted for the whole picture; or if samples count as if they were
-// independent.
+// Fails if the noise of splats is left out, or counted for the whole picture.
 TEST_CASE("a trial finds how the variances and rays of two integrators compare", "[law]") {
     for (bool up : {false, true}) {
         auto const scene = room(up, 32);
@@ -90,6 +89,26 @@ TEST_CASE("a trial finds how the variances and rays of two integrators compare",
         CHECK(std::abs(std::log(found.variance / (a.variance / b.variance))) < std::log(1.3));
         CHECK(found.rays_error / found.variance == Approx(a.rays / b.rays).epsilon(0.03));
     }
+}
+
+// Paths that bring their first vertex's first number: of 8 samples of one sequence the mean's variance is an eighth of
+// that of independent ones, or less. Fails if the two of a pair are of one sequence, or parts of one path.
+TEST_CASE("a trial's noise is that of stratified samples", "[law]") {
+    auto const scene = room(false, 32);
+    RenderPlan const plan = make_plan(*scene);
+    PilotStarter const starter(*scene, plan, PilotStarter::Pairs::paths);
+    auto const follow = [](std::span<CameraPath> paths, RayStatistics&) {
+        for (CameraPath& path : paths) {
+            path.sampler.begin_vertex(0);
+            path.radiance = Radiance(path.sampler.next());
+        }
+    };
+    RayStatistics rays;
+    Eigen::Array3d independent(0, 0, 0), stratified = independent;
+    for (BlockNoise const& n : noise_of(*scene, PilotBlocks(*scene, 2), 8, starter, follow, rays).pixel)
+        independent += n.apart, stratified += n.of_mean;
+    CHECK(stratified[1] < independent[1] / 8);
+    CHECK(stratified[1] > independent[1] / 1000);
 }
 
 // Fails if the trial is not asked, or if the first samples wait for it.
