@@ -138,6 +138,41 @@ TEST_CASE("samples before and after the trial bring the same light together", "[
     }
 }
 
+// Fails if the samples of a part, or of a crop, that no light paths go with take a share of those of another.
+TEST_CASE("parts before and after the trial, and a crop without it, add up to one picture", "[law]") {
+    auto const scene = room(true, 32);
+    RenderPlan const plan = make_plan(*scene);
+    auto const part = [&](int spp, std::uint32_t first, std::optional<Crop> const& crop = {}) {
+        RenderPlan without = plan;
+        if (crop) without.no_light_paths = "a crop has no light paths of its own";
+        Film film = make_film(*scene, crop);
+        render(*scene, without, *make_integrator("auto", *scene, without), {.spp = spp, .first_sample = first}, film);
+        return film;
+    };
+    Film const whole = part(20, 0), early = part(16, 0), late = part(4, 16), crop = part(24, 100, Crop{4, 4, 20, 20});
+    REQUIRE(late.splats());
+    REQUIRE_FALSE(early.splats());
+    REQUIRE_FALSE(crop.splats());
+    Film sum = early, turned = late;
+    sum.add(late);
+    turned.add(early);
+    Film with_crop = whole;
+    with_crop.add(crop);
+    for (int y = 0; y < whole.height(); ++y)
+        for (int x = 0; x < whole.width(); ++x) {
+            double const expected = whole.mean(x, y).Y;
+            CHECK(sum.mean(x, y).Y == Approx(expected));
+            CHECK(turned.mean(x, y).Y == Approx(expected));
+            bool const inside = x >= 4 && y >= 4 && x < 20 && y < 20;
+            double mixed = expected;
+            if (inside) {
+                double const w = whole.pixel(x, y).weight, v = crop.pixel(x - 4, y - 4).weight;
+                mixed = (w * expected + v * crop.mean(x - 4, y - 4).Y) / (w + v);
+            }
+            CHECK(with_crop.mean(x, y).Y == Approx(mixed));
+        }
+}
+
 // After 16 samples of all tiles, 48 more of some. Fails if light paths count for all pixels alike: by a tenth.
 TEST_CASE("a picture that is interrupted after the trial is as bright in all its tiles", "[law]") {
     auto const scene = room(true, 32);
