@@ -27,10 +27,11 @@ constexpr double worth_of_first_parts = 0.7;
 // found at 1 to 1.25 and is 1.4, `cornell` is found at .7 and is .5, and all other scenes are below; fireflies, which
 // whole paths have more of, are seen too seldom.
 struct Look {
-    TrialSize size;
+    int block;    // pixels along a side, at least
+    int samples;  // of each of two independent estimates at each place of a block
     double at_least;
 };
-constexpr std::array<Look, 3> looks{{{{32, 8}, 0.45}, {{16, 8}, 0.75}, {{8, 8}, 0.87}}};
+constexpr std::array<Look, 3> looks{{{32, 8, 0.45}, {16, 8, 0.75}, {8, 8, 0.87}}};
 constexpr int least_blocks = 16;  // of the last look: fewer tell nothing
 
 std::unique_ptr<Integrator> camera_paths(Scene const& scene, RenderPlan const& plan, bool caustics, int splits,
@@ -47,8 +48,8 @@ class Automatic final : public Integrator {
         : plan_(std::move(plan)), first_(std::move(first)), caustics_(caustics) {}
 
     void prepare(Scene const& scene, SamplePass const& pass, RayStatistics& statistics) override {
-        bool const is_late = pass.last > samples_before_trial;
-        if (pass.first < samples_before_trial) weight_of_joined_.reset();  // another picture
+        bool const is_late = pass.first >= samples_before_trial;  // no pass goes across
+        if (!is_late) weight_of_joined_.reset();                  // another picture
         if (is_late && !weight_of_joined_) weight_of_joined_ = try_joined(scene, statistics);
         takes_joined_ = is_late && *weight_of_joined_ > 0;
         if (!takes_joined_) first_->prepare(scene, pass, statistics);
@@ -75,14 +76,13 @@ class Automatic final : public Integrator {
         double variance = 0;
         int blocks = 0;
         for (Look const& look : looks) {
-            PilotBlocks const at(scene, look.size.block);
+            PilotBlocks const at(scene, look.block);
             if (at.count() == blocks) continue;  // a large picture is not looked at as closely
             blocks = at.count();
-            TrialResult const result = try_out(scene, at, starter, look.size.samples, *whole, *joined_, statistics);
+            TrialResult const result = try_out(scene, at, starter, look.samples, *whole, *joined_, statistics);
             if (!(result.rays_error >= look.at_least * ray_of_joined_path)) return 0;
             variance = result.variance;
         }
-        if (blocks < least_blocks) return 0;
         constexpr double highest = 64;
         double const weight_of_whole = caustics_ ? worth_of_light_paths : 1;
         return static_cast<std::uint32_t>(
@@ -102,7 +102,7 @@ std::unique_ptr<Integrator> make_auto(Scene const& scene, RenderPlan const& plan
     AutomaticChoice const choice = choose_integrator(scene, plan);
     bool const caustics = choice.name == "caustic-path";
     auto first = camera_paths(scene, plan, caustics, plan.whole_paths ? 1 : usual_splits, options);
-    if (!choice.trial) return first;
+    if (!choice.trial || PilotBlocks(scene, looks.back().block).count() < least_blocks) return first;
     return std::make_unique<Automatic>(plan, std::move(first), caustics);
 }
 

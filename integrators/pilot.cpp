@@ -99,6 +99,15 @@ void Sighted::add(CameraPath const& path, PathStarter const& starter) {
         });
 }
 
+Image<Eigen::Array3d> Sighted::of_pixels(std::array<double, 3> FilmPixel::*sum, double divisor) const {
+    Image<Eigen::Array3d> out(width(), height());
+    double const scale = columns_per_pixel_ * rows_per_pixel_ / paths_;
+    std::ranges::transform(film_.pixels(), out.pixel.begin(), [&](FilmPixel const& p) -> Eigen::Array3d {
+        return Eigen::Map<Eigen::Array3d const>((p.*sum).data()) * scale / divisor;
+    });
+    return out;
+}
+
 void Sighted::add(Sighted const& other) {
     film_.add(other.film_);
     paths_ += other.paths_, rays_ += other.rays_;
@@ -167,9 +176,7 @@ double relative_noise(Image<Eigen::Array3d> const& variance, Image<Eigen::Array3
 }
 
 Image<Eigen::Array3d> mean_around(Image<Eigen::Array3d> const& of_block, Sighted const& sighted) {
-    Image<Eigen::Array3d> shown(sighted.width(), sighted.height());
-    for (int y = 0; y < shown.height; ++y)
-        for (int x = 0; x < shown.width; ++x) shown.at(x, y) = sighted.mean(x, y);
+    Image<Eigen::Array3d> const shown = sighted.mean();
     Image<Eigen::Array3d> mean = averaged(of_block, shown.width, shown.height);
     for (int y = 0; y < mean.height; ++y)
         for (int x = 0; x < mean.width; ++x) {

@@ -74,17 +74,15 @@ class Sighted {
     void add(Sighted const& other);
     int width() const { return film_.width(); }
     int height() const { return film_.height(); }
-    // What a light path for each pixel brings to one of block (x, y): few hit it, so the variance is the mean square.
-    Eigen::Array3d mean(int x, int y) const { return of_pixel(film_.pixel(x, y).sum); }
-    Eigen::Array3d variance(int x, int y) const { return of_pixel(film_.pixel(x, y).sum_of_squares) / pixels_; }
+    // What a light path for each pixel brings to one, block by block: few hit it, so the variance is the mean square.
+    Image<Eigen::Array3d> mean() const { return of_pixels(&FilmPixel::sum, 1); }
+    Image<Eigen::Array3d> variance() const { return of_pixels(&FilmPixel::sum_of_squares, pixels_); }
     // Of all paths added here.
     void count_rays(RayStatistics const& rays) { rays_ += static_cast<double>(rays.rays()); }
     double rays_of_path() const { return rays_ / paths_; }
 
   private:
-    Eigen::Array3d of_pixel(std::array<double, 3> const& sum) const {
-        return Eigen::Array3d(sum[0], sum[1], sum[2]) * (columns_per_pixel_ * rows_per_pixel_ / paths_);
-    }
+    Image<Eigen::Array3d> of_pixels(std::array<double, 3> FilmPixel::*sum, double divisor) const;
     Film film_;
     double columns_per_pixel_, rows_per_pixel_, pixels_, paths_ = 0, rays_ = 0;
 };

@@ -81,11 +81,12 @@ class Batch {
     }
     void deposit(Pixel p, CameraPath const& path) {
         auto const cause = why_rejected(path);
-        if (cause)
+        if (cause) {
             film_.reject(p.x, p.y, *cause);
-        else
+        } else {
             film_.add(p.x, p.y, path.wavelengths, path.radiance, weight_);
-        if (splats_ && !cause) film_.accompany(p.x, p.y, weight_);
+            if (splats_) film_.accompany(p.x, p.y, weight_);
+        }
         if (groups_ && cause)
             groups_->reject(p.x, p.y, *cause);
         else if (groups_)

@@ -108,10 +108,7 @@ double best_factor(Image<Pilot> const& pilot, int most, double pays) {
 // Of camera paths, that light paths of which `sighted` saw some, with a share of their own, should go with.
 float best_share(Image<BlockNoise> const& noise, Cost const& parts, Sighted const& sighted, float share) {
     Image<Eigen::Array3d> const mean = mean_around(each(noise, &BlockNoise::mean), sighted);
-    Image<Eigen::Array3d> variance(mean.width, mean.height);
-    for (int y = 0; y < mean.height; ++y)
-        for (int x = 0; x < mean.width; ++x) variance.at(x, y) = sighted.variance(x, y);
-    double const error = relative_noise(variance, mean);
+    double const error = relative_noise(sighted.variance(), mean);
     double const time = light_ray * sighted.rays_of_path();
     if (!(time > 0 && parts.error > 0)) return share;
     double const best = static_cast<double>(share) * std::sqrt(error / time * parts.time / parts.error);

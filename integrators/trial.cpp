@@ -21,8 +21,8 @@ Evidence evidence_of(Integrator const& integrator, Scene const& scene, PilotBloc
     Image<BlockNoise> const noise = noise_of(scene, blocks, samples, starter, follow, all, &seen);
     Evidence found{mean_around(each(noise, &BlockNoise::mean), seen),
                    averaged(each(noise, &BlockNoise::of_mean), seen.width(), seen.height()), seen.rays_of_path()};
-    for (int y = 0; y < seen.height(); ++y)
-        for (int x = 0; x < seen.width(); ++x) found.variance.at(x, y) += seen.variance(x, y);
+    Image<Eigen::Array3d> const of_light_paths = seen.variance();
+    for (std::size_t i = 0; i < of_light_paths.pixel.size(); ++i) found.variance.pixel[i] += of_light_paths.pixel[i];
     return found;
 }
 

@@ -10,17 +10,13 @@
 
 namespace iride {
 
-// How closely a trial looks.
-struct TrialSize {
-    int block;    // pixels along a side, at least
-    int samples;  // of each of two independent estimates at each of its places
-};
 // The first's over the second's.
 struct TrialResult {
     double rays_error;  // rays x error
     double variance;
 };
-// A function of scene, blocks, starter, samples and what the integrators are made for alone.
+// By `samples` of each of two independent estimates at each place. A function of scene, blocks, starter, samples and
+// what the integrators are made for alone.
 TrialResult try_out(Scene const& scene, PilotBlocks const& blocks, PilotStarter const& starter, int samples,
                     Integrator const& first, Integrator const& second, RayStatistics& statistics);
 

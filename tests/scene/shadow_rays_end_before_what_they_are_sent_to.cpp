@@ -37,8 +37,7 @@ Stopped stopped(Scene const& scene, double x) {
     RayStatistics rays;
     Vector const low = Vector::Constant(static_cast<float>(x)) - scene.origin.cast<float>();
     Light const& lamp = scene.lights.light(static_cast<int>(scene.lights.size()) - 1);
-    WavelengthGrid const grid = scene.grid;
-    Wavelengths const w = WavelengthSampler(visible_range, visible_importance(), grid).sample(0.5f);
+    Wavelengths const w = WavelengthSampler(visible_range, visible_importance(), scene.grid).sample(0.5f);
     for (std::uint32_t i = 0; i < 1000; ++i) {
         Sampler random(SamplerKind::independent, 4, 0, i);
         Sample2 const at = random.next2();
