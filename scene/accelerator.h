@@ -97,23 +97,20 @@ std::uint64_t processor_ticks();
 // point computed from barycentrics errs by 3 to 20). A ray from there neither hits nor skips its own surface.
 // [Wächter 2019]
 inline constexpr float usual_size = 1e-4f;  // m: points near the origin are as uncertain as if they were there
-inline float uncertainty(Vector const& place, float size) {
+[[gnu::always_inline]] inline float uncertainty(Vector const& place, float size) {
     constexpr float units = 64 * std::numeric_limits<float>::epsilon();
     return units * std::max(place.cwiseAbs().maxCoeff(), size > 0 ? size : usual_size);
 }
 
-// From the point to a place off the surface, on the side of `direction`.
-[[gnu::always_inline]] inline Vector step_off_surface(SurfacePoint const& point, Direction const& direction) {
-    float const offset = uncertainty(point.position, point.size);
+// So far, off the surface on the side of `direction`.
+[[gnu::always_inline]] inline Vector step_off_surface(SurfacePoint const& point, Direction const& direction,
+                                                      float offset) {
     return (direction.dot(point.geometric_normal) >= 0 ? offset : -offset) * point.geometric_normal;
-}
-[[gnu::always_inline]] inline Vector off_surface(SurfacePoint const& point, Direction const& direction) {
-    return point.position + step_off_surface(point, direction);
 }
 
 // A ray leaving `point` along `direction`.
 [[gnu::always_inline]] inline Ray spawn_ray(SurfacePoint const& point, Direction const& direction) {
-    return {off_surface(point, direction), direction};
+    return {point.position + step_off_surface(point, direction, uncertainty(point.position, point.size)), direction};
 }
 
 // Towards a place `distance` away, ending just before it: the surface there is as uncertain as the one left.
@@ -127,11 +124,12 @@ inline Ray shadow_ray(Vector const& from, Direction const& direction, float dist
 // The same from a surface. The step off it is nearer to the place, or past it beside a lamp: so it is aimed at anew.
 [[gnu::always_inline]] inline Ray spawn_shadow_ray(SurfacePoint const& point, Direction const& direction,
                                                    float distance) {
-    Vector const step = step_off_surface(point, direction), origin = point.position + step;
+    float const offset = uncertainty(point.position, point.size);
+    Vector const step = step_off_surface(point, direction, offset), origin = point.position + step;
     if (!(distance < infinity)) return {origin, direction};
     Vector const to = distance * direction - step;
     float const length = to.norm();
-    return shadow_ray(origin, to / length, length, uncertainty(point.position, point.size));
+    return shadow_ray(origin, to / length, length, offset);
 }
 
 }  // namespace iride
