@@ -25,17 +25,19 @@ PathStarter::PathStarter(Scene const& scene, RenderPlan const& plan, int width, 
     cone_.spread *= texture_share;
 }
 
-void PathStarter::start(int x, int y, std::uint32_t sample, CameraPath& path) const {
+void PathStarter::start(int x, int y, std::uint32_t sample, CameraPath& path, CameraPath const* block) const {
     std::construct_at(&path.sampler, kind_, seed_,
                       morton_number(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)), sample);
     Sample2 const place = place_in_pixel(path.sampler.next2());
-    path.wavelengths = wavelengths_.sample(path.sampler.next());
+    float const wavelengths = path.sampler.next();
+    path.wavelengths = block && block != &path ? block->wavelengths : wavelengths_.sample(wavelengths);
     path.x = static_cast<float>(x) + 0.5f + place.x, path.y = static_cast<float>(y) + 0.5f + place.y;
     path.ray = camera_.ray(path.x, path.y, path.sampler.next2());
     path.cone = cone_;
     path.part = 1;
     path.radiance = Radiance();
     path.complete = true;
+    path.block = block;
     path.splats.clear();
 }
 

@@ -29,8 +29,9 @@ struct CameraPath {
     Wavelengths wavelengths;
     Sampler sampler{SamplerKind::independent, 0, 0, 0};
     Radiance radiance;
-    float part = 1;        // of its sample that it is
-    bool complete = true;  // false: given up (longest_path), the sample must be dropped and counted
+    float part = 1;                     // of its sample that it is
+    bool complete = true;               // false: given up (longest_path), the sample must be dropped and counted
+    CameraPath const* block = nullptr;  // the first path of its block (Integrator::block_side()); null: it is alone
     LightShares shares;
     std::vector<Splat> splats;  // of the light path that goes with this one, Integrator::splats()
 
@@ -47,7 +48,8 @@ class PathStarter {
   public:
     PathStarter(Scene const& scene, RenderPlan const& plan, int width, int height, SamplerKind kind,
                 std::uint64_t seed);
-    void start(int x, int y, std::uint32_t sample, CameraPath& path) const;
+    // `block`: its first path, whose wavelengths all have; it may be this one.
+    void start(int x, int y, std::uint32_t sample, CameraPath& path, CameraPath const* block = nullptr) const;
     // What a splat weighs at the pixels around it, by the filter from which camera paths are drawn: deposit(x, y,
     // weight).
     template <class Deposit>

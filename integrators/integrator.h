@@ -14,8 +14,8 @@
 
 namespace iride {
 
-// The most paths that are followed together.
-inline constexpr int batch_size = 64;
+// The most paths that are followed together, and the most of a block among them.
+inline constexpr int batch_size = 64, widest_block = 4, most_in_block = widest_block * widest_block;
 
 // Samples [first, last) of every pixel; where pixels have goals of their own, up to the highest.
 struct SamplePass {
@@ -32,7 +32,11 @@ class Integrator {
     virtual int samples_alike(std::uint32_t /*first*/) const { return std::numeric_limits<int>::max(); }
     // What each sample of the pass counts beside those of others: about the reciprocal of its variance.
     virtual std::uint32_t weight() const { return 1; }
-    // Follow at most batch_size paths, each on its own: what a path brings does not depend on those beside it.
+    // Side of the blocks of pixels whose paths of one sample are followed together and have the same wavelengths:
+    // 1 or widest_block.
+    virtual int block_side() const { return 1; }
+    // Follow at most batch_size paths, each on its own: what a path brings does not depend on those beside it but for
+    // those of its block, which stand together.
     virtual void follow(Scene const& scene, std::span<CameraPath> paths, RayStatistics& statistics) const = 0;
     // Whether a light path goes with each camera path, and leaves splats.
     virtual bool splats() const { return false; }

@@ -262,7 +262,8 @@ std::optional<SentToCamera> send_to_camera(Scene const& scene, TwoWayContext con
     float const density = sight->density * static_cast<float>(splits.at(sight->x, sight->y)) / context.light_paths();
     Lanes techniques = Heuristic::of(here.path.state.reach);
     if (weighed)
-        techniques += here.path.others(Lanes(density * at.cosine(viewer)), [&] { return Lanes(s.density.lane); });
+        techniques += here.path.others(Lanes(1 / Heuristic::shown(1 / (density * at.cosine(viewer)))),
+                                       [&] { return Lanes(s.density.lane); });
     float const scale = at.adjoint_cosine(s.cosine, at.back(), viewer) * sight->density / float(mean(techniques));
     Throughput const arriving = here.path.state.weight * at.let_through(scene, wavelengths, viewer, sight->distance);
     return send(at.point(), *sight, Radiance(flux.lane * arriving.lane * s.value.lane * scale));

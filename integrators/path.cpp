@@ -6,6 +6,7 @@
 
 #include "integrators/light_afloat.h"
 #include "integrators/radiosity/field.h"
+#include "integrators/shared_vertices.h"
 #include "integrators/splits.h"
 
 namespace iride {
@@ -24,7 +25,8 @@ class Path final : public Integrator {
     using LightPaths = std::conditional_t<Lit, AimedLightPaths, NotCarried>;
 
   public:
-    Path(Scene const& scene, RenderPlan const& plan, KnownIndirect known, LightPaths light_paths = {})
+    Path(Scene const& scene, RenderPlan const& plan, PathHabits const& habits, KnownIndirect known,
+         LightPaths light_paths = {})
         : light_paths_(std::move(light_paths)),
           known_(std::move(known)),
           selector_(scene.lights, plan.light_selection, plan.uniform_light),
@@ -33,11 +35,14 @@ class Path final : public Integrator {
           light_sampling_(plan.light_sampling && !selector_.none()),
           environment_(plan.environment),
           ray_cones_(plan.ray_cones),
-          camera_in_(plan.camera_in) {}
+          shares_(habits.share && !Scattering && !ray_cones_ && !plan.whole_paths),
+          camera_in_(plan.camera_in) {
+        if (habits.splits > 1) pilot_.emplace(plan, habits.splits);
+    }
 
     std::vector<std::string> remarks() const override { return known_.remarks; }
     bool splats() const override { return Lit; }
-    void split(RenderPlan const& plan, int most) { pilot_.emplace(plan, most); }
+    int block_side() const override { return shares_ ? widest_block : 1; }
     int samples_alike(std::uint32_t first) const override {
         return pilot_ ? pilot_->samples_alike(first) : Integrator::samples_alike(first);
     }
@@ -79,7 +84,7 @@ class Path final : public Integrator {
         if (ray_cones_)
             for (std::size_t i = 0; i < paths.size(); ++i) walks[i].cone = paths[i].cone;
         reach_vertex(scene, paths, walks, alive, 0, between, statistics);
-        if (splits_.none())
+        if (splits_.none() && !shares_)
             go_on(scene, paths, walks, alive, between, statistics);
         else
             go_on_in_parts(scene, paths, walks, alive, between, statistics);
@@ -90,7 +95,7 @@ class Path final : public Integrator {
                                        int bounce, Exchange& between, RayStatistics& statistics) const {
         alive.for_each(
             [&](std::size_t i) { walks[i].begin_vertex(paths[i].sampler, static_cast<std::uint32_t>(bounce)); });
-        find_hits(scene, paths, walks, alive, bounce, between.queries, statistics);
+        find_hits(scene, paths, walks, alive, coherence(bounce), between.queries, statistics);
         if constexpr (Media)
             alive.keep_if([&](std::size_t i) {
                 return travel_on(scene, paths[i], walks[i], bounce, between.shadows, statistics);
@@ -101,8 +106,9 @@ class Path final : public Integrator {
 
     // From the first vertex to the end.
     void go_on(Scene const& scene, std::span<CameraPath> paths, Walks& walks, Alive& alive, Exchange& between,
-               RayStatistics& statistics) const {
+               RayStatistics& statistics, SharedVertices<Walk>* shared = nullptr) const {
         for (int bounce = 0; !alive.none();) {
+            if (shared && bounce == 1) shared->begin(scene, alive, statistics);
             if (known_.field) {
                 bring_known(scene, paths, walks, alive, bounce, statistics);
                 if (light_sampling_ && scene.lights.size() <= most_lamps) {
@@ -122,50 +128,47 @@ class Path final : public Integrator {
     }
 
     // Each path from its first vertex, in parts.
-    void go_on_in_parts(Scene const& scene, std::span<CameraPath> paths, Walks const& walks, Alive const& alive,
+    void go_on_in_parts(Scene const& scene, std::span<CameraPath> paths, Walks& walks, Alive const& alive,
                         Exchange& between, RayStatistics& statistics) const {
-        Parts<Walk> parts;
+        Parts<Walk> parts(paths);
+        std::optional<FirstVertices> first;
+        std::optional<SharedVertices<Walk>> shared;
+        if (shares_) shared.emplace(first.emplace(first_vertices(scene, paths, walks, alive)), parts);
         auto const finish = [&] {
             Alive all(parts.size());
-            go_on(scene, parts.paths(), parts.walks(), all, between, statistics);
+            go_on(scene, parts.paths(), parts.walks(), all, between, statistics, shared ? &*shared : nullptr);
+            if (shared) shared->end();
             parts.gather();
         };
         alive.for_each([&](std::size_t i) {
             std::uint32_t const of_path = splits_.at(paths[i].x, paths[i].y);
             for (std::uint32_t k = 0; k < of_path; ++k) {
-                parts.add(paths[i], walks[i], k, of_path);
+                parts.add(i, walks[i], k, of_path);
                 if (parts.size() == batch_size) finish();
             }
         });
         finish();
+        if (shared) shared->bring(paths);
     }
 
-    static void find_hits(Scene const& scene, std::span<CameraPath const> paths, Walks& walks, Alive const& alive,
-                          int bounce, std::array<ClosestQuery, batch_size>& queries, RayStatistics& statistics) {
-        std::size_t count = 0;
+    // From which the paths of a block may share what they find.
+    FirstVertices first_vertices(Scene const& scene, std::span<CameraPath const> paths, Walks& walks,
+                                 Alive const& alive) const {
+        FirstVertices first(paths);
         alive.for_each([&](std::size_t i) {
-            ClosestQuery& query = queries[count++];
-            query.ray = &paths[i].ray;
-            query.hit = &walks[i].hit;
-            query.cone = walks[i].cone;
+            Walk& walk = walks[i];
+            if (walk.is_afloat() || !is_lambertian(scene, walk)) return;
+            if constexpr (Media)
+                if (walk.in.medium().attenuates()) return;
+            float rivals = 0;
+            if constexpr (Lit) {
+                rivals = walk.rivalry.near[0];
+                if (rivals != 0 && !is_flat(walk.hit.point)) return;
+            }
+            Met const met = meeting(scene, paths[i], walk);
+            first.add(i, walk.hit.point, seen(met), static_cast<float>(splits_.at(paths[i].x, paths[i].y)), rivals);
         });
-        scene.accelerator->closest(std::span(queries).first(count), coherence(bounce), statistics);
-        count = 0;
-        alive.for_each([&](std::size_t i) { walks[i].has_hit = queries[count++].found; });
-    }
-
-    // Take the path along its ray; true if the surface there is none.
-    static bool travel_once(Scene const& scene, CameraPath& path, Walk& walk, [[maybe_unused]] Flight& flight) {
-        Hit const* const hit = walk.has_hit ? &walk.hit : nullptr;
-        if constexpr (!Scattering) {
-            return travel(scene, hit, path.wavelengths, path.ray, walk.in, walk.state.weight);
-        } else {
-            float passing = 1;
-            bool const through =
-                fly(scene, hit, path.wavelengths, flight, path.ray, walk.in, walk.state, passing, walk.floating.at);
-            if (walk.arrival.density) walk.arrival.density->value *= passing;
-            return through;
-        }
+        return first;
     }
 
     // Through surfaces that are none to the first that is one, or to a scattering; false if there is no end to them.
@@ -190,14 +193,6 @@ class Path final : public Integrator {
     float chance_to_return([[maybe_unused]] Walk& walk) const {
         if constexpr (Scattering) return light_afloat_.chance_to_return(walk);
         return 1;
-    }
-
-    // mean(next.reach) + mean(state.reach) p_light / p_hero.
-    static float mixture(Walk const& walk, float light_density) {
-        float const reach = Dispersive ? float(mean(walk.state.reach)) : 1.0f;
-        Arrival const& arrival = walk.arrival;
-        if (!arrival.density) return reach;
-        return reach + arrival.mean_reach_before * light_density / arrival.density->value;
     }
 
     float choice_density(Arrival const& arrival, int light) const {
@@ -234,7 +229,8 @@ class Path final : public Integrator {
         if (bounce > 0)
             walk.rivalry.arrive(walk.rivalry.passed + walk.hit.distance, arriving);
         else if (walk.rivalry.passed == 0)
-            walk.rivalry.near = Lanes(light_paths_.per_camera_path(path, splits_, walk.hit.distance) / arriving);
+            walk.rivalry.near = Lanes(
+                BesideLightPaths::shown(light_paths_.per_camera_path(path, splits_, walk.hit.distance) / arriving));
         return arriving > 0;
     }
 
@@ -244,7 +240,8 @@ class Path final : public Integrator {
             Light const& light = scene.lights.light(e);
             float const p =
                 walk.arrival.density ? choice_density(walk.arrival, e) * light.arriving_density(wi).value : 0;
-            path.bring(e, walk.state.weight * light.arriving(wi, path.wavelengths) * (1 / mixture(walk, p)));
+            path.bring(e,
+                       walk.state.weight * light.arriving(wi, path.wavelengths) * (1 / mixture<Dispersive>(walk, p)));
         }
     }
 
@@ -257,7 +254,7 @@ class Path final : public Integrator {
         if (walk.arrival.density)
             p = choice_density(walk.arrival, hit.shape->light) *
                 light.density(walk.arrival.from.position, hit.point, hit.primitive).value;
-        float divisor = mixture(walk, p);
+        float divisor = mixture<Dispersive>(walk, p);
         if constexpr (Lit)
             if (!is_black(walk.rivalry.far))
                 divisor += float(mean(walk.rivalry.far)) * light_paths_.starting(scene, path.ray, hit);
@@ -443,14 +440,9 @@ class Path final : public Integrator {
     [[no_unique_address]] std::conditional_t<Scattering, LightAfloat, NotCarried> light_afloat_;
     int max_bounces_;
     bool light_sampling_, environment_, ray_cones_;
+    bool shares_;                            // the paths of a block, what leaves their second vertices
     std::optional<Surroundings> camera_in_;  // absent: to be found for each path
 };
-
-template <class PathType>
-std::unique_ptr<Integrator> in_parts(std::unique_ptr<PathType> path, RenderPlan const& plan, int most) {
-    if (most > 1) path->split(plan, most);
-    return path;
-}
 
 // make.operator()<what the plan needs>(): a Path of them.
 template <class Make>
@@ -460,34 +452,39 @@ std::unique_ptr<Integrator> made_for(RenderPlan const& plan, Make&& make) {
     return plan.dispersion ? make.template operator()<true, false>() : make.template operator()<false, false>();
 }
 
-std::unique_ptr<Integrator> path_of(Scene const& scene, RenderPlan const& plan, KnownIndirect known, int parts) {
+std::unique_ptr<Integrator> path_of(Scene const& scene, RenderPlan const& plan, KnownIndirect known,
+                                    PathHabits const& habits) {
     auto const make = [&]<bool... Needs>() {
-        return in_parts(std::make_unique<Path<Needs...>>(scene, plan, std::move(known)), plan, parts);
+        return std::unique_ptr<Integrator>(std::make_unique<Path<Needs...>>(scene, plan, habits, std::move(known)));
     };
     return plan.scattering ? make.template operator()<true, true, true>() : made_for(plan, make);
 }
 
 }  // namespace
 
-std::unique_ptr<Integrator> path_in_parts(Scene const& scene, RenderPlan const& plan, IntegratorOptions& options,
-                                          int usual_splits) {
-    int const parts = options.integer("splits", 1, most_splits, usual_splits);
+PathHabits habits_asked_for(IntegratorOptions& options, PathHabits const& usual) {
+    int const splits = options.integer("splits", 1, most_splits, usual.splits);
+    return {splits, options.boolean("share", usual.share)};
+}
+
+std::unique_ptr<Integrator> path_by(PathHabits const& habits, Scene const& scene, RenderPlan const& plan,
+                                    IntegratorOptions& options) {
     options.finish();
-    return path_of(scene, plan, {}, parts);
+    return path_of(scene, plan, {}, habits);
 }
 
 std::unique_ptr<Integrator> path_until_known(Scene const& scene, RenderPlan const& plan, KnownIndirect known) {
-    return path_of(scene, plan, std::move(known), 1);
+    return path_of(scene, plan, std::move(known), {});
 }
 
-std::unique_ptr<Integrator> caustic_path_in_parts(Scene const& scene, RenderPlan const& plan,
-                                                  IntegratorOptions& options, int usual_splits) {
+std::unique_ptr<Integrator> caustic_path_by(PathHabits const& habits, Scene const& scene, RenderPlan const& plan,
+                                            IntegratorOptions& options) {
     AimedLightPaths light_paths = light_paths_asked_for(scene, plan, options, "caustic-path");
-    int const parts = options.integer("splits", 1, most_splits, usual_splits);
     options.finish();
     return made_for(plan, [&]<bool Dispersive, bool Media>() {
         using Lit = Path<Dispersive, Media, false, true>;
-        return in_parts(std::make_unique<Lit>(scene, plan, KnownIndirect{}, std::move(light_paths)), plan, parts);
+        return std::unique_ptr<Integrator>(
+            std::make_unique<Lit>(scene, plan, habits, KnownIndirect{}, std::move(light_paths)));
     });
 }
 

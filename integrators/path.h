@@ -24,19 +24,24 @@ struct KnownIndirect {
     std::vector<std::string> remarks{};
 };
 
-// Option `splits`: the most parts that a camera path is split into (integrators/splits.h), where it says nothing
-// `usual_splits`.
-std::unique_ptr<Integrator> path_in_parts(Scene const& scene, RenderPlan const& plan, IntegratorOptions& options,
-                                          int usual_splits);
+// Options of camera paths.
+struct PathHabits {
+    int splits = 1;      // the most parts that one is split into (integrators/splits.h)
+    bool share = false;  // neighbours share second vertices (integrators/shared_vertices.h), where the scene lets them
+};
+// `usual`: where the options say nothing.
+PathHabits habits_asked_for(IntegratorOptions& options, PathHabits const& usual = {});
+std::unique_ptr<Integrator> path_by(PathHabits const& habits, Scene const& scene, RenderPlan const& plan,
+                                    IntegratorOptions& options);
 // The same with light paths aimed at mirrors and glass beside it (integrators/aimed_light_paths.h).
-std::unique_ptr<Integrator> caustic_path_in_parts(Scene const& scene, RenderPlan const& plan,
-                                                  IntegratorOptions& options, int usual_splits);
+std::unique_ptr<Integrator> caustic_path_by(PathHabits const& habits, Scene const& scene, RenderPlan const& plan,
+                                            IntegratorOptions& options);
 inline std::unique_ptr<Integrator> make_path(Scene const& scene, RenderPlan const& plan, IntegratorOptions& options) {
-    return path_in_parts(scene, plan, options, 1);
+    return path_by(habits_asked_for(options), scene, plan, options);
 }
 inline std::unique_ptr<Integrator> make_caustic_path(Scene const& scene, RenderPlan const& plan,
                                                      IntegratorOptions& options) {
-    return caustic_path_in_parts(scene, plan, options, 1);
+    return caustic_path_by(habits_asked_for(options), scene, plan, options);
 }
 // `path` to where it first scatters other than by Dirac lobes: there lamps are sampled, and the rest is known.
 std::unique_ptr<Integrator> path_until_known(Scene const& scene, RenderPlan const& plan, KnownIndirect known);

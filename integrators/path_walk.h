@@ -110,6 +110,48 @@ bool is_diffuse(Scene const& scene, Walk const& walk) {
     return !walk.is_afloat() && scene.material(walk.hit.shape->material).traits.diffuse;
 }
 
+// The ends of the rays of those alive.
+template <class Walk>
+void find_hits(Scene const& scene, std::span<CameraPath const> paths, std::array<Walk, batch_size>& walks,
+               Alive const& alive, Accelerator::Coherence coherence, std::array<ClosestQuery, batch_size>& queries,
+               RayStatistics& statistics) {
+    std::size_t count = 0;
+    alive.for_each([&](std::size_t i) {
+        ClosestQuery& query = queries[count++];
+        query.ray = &paths[i].ray;
+        query.hit = &walks[i].hit;
+        query.cone = walks[i].cone;
+    });
+    scene.accelerator->closest(std::span(queries).first(count), coherence, statistics);
+    count = 0;
+    alive.for_each([&](std::size_t i) { walks[i].has_hit = queries[count++].found; });
+}
+
+// Take the path along its ray; true if the surface there is none.
+template <bool Media, bool Scattering, bool Lit>
+bool travel_once(Scene const& scene, CameraPath& path, Walk<Media, Scattering, Lit>& walk,
+                 [[maybe_unused]] Flight& flight) {
+    Hit const* const hit = walk.has_hit ? &walk.hit : nullptr;
+    if constexpr (!Scattering) {
+        return travel(scene, hit, path.wavelengths, path.ray, walk.in, walk.state.weight);
+    } else {
+        float passing = 1;
+        bool const through =
+            fly(scene, hit, path.wavelengths, flight, path.ray, walk.in, walk.state, passing, walk.floating.at);
+        if (walk.arrival.density) walk.arrival.density->value *= passing;
+        return through;
+    }
+}
+
+// mean(next.reach) + mean(state.reach) p_light / p_hero.
+template <bool Dispersive, class Walk>
+float mixture(Walk const& walk, float light_density) {
+    float const reach = Dispersive ? float(mean(walk.state.reach)) : 1.0f;
+    Arrival const& arrival = walk.arrival;
+    if (!arrival.density) return reach;
+    return reach + arrival.mean_reach_before * light_density / arrival.density->value;
+}
+
 inline Interaction const& seen(Interaction const& here) { return here; }
 inline Interaction const& seen(Meeting const& here) { return here.seen(); }
 
@@ -117,33 +159,38 @@ inline Interaction const& seen(Meeting const& here) { return here.seen(); }
 template <class Walk>
 class Parts {
   public:
+    explicit Parts(std::span<CameraPath> whole) : all_(whole) {}
+
     std::size_t size() const { return count_; }
     std::span<CameraPath> paths() { return std::span(paths_).first(count_); }
     std::array<Walk, batch_size>& walks() { return walks_; }
+    // The number of the path that it is a part of.
+    std::size_t whole(std::size_t part) const { return whole_[part]; }
 
-    // Part k of `parts` of a path at its first vertex.
-    void add(CameraPath& whole, Walk const& walk, std::uint32_t k, std::uint32_t parts) {
+    // Part k of `parts` of path `whole` at its first vertex.
+    void add(std::size_t whole, Walk const& walk, std::uint32_t k, std::uint32_t parts) {
         CameraPath& part = paths_[count_];
-        part = whole;
+        part = all_[whole];
         part.radiance = Radiance();
         part.part = 1 / static_cast<float>(parts);
         part.sampler.split(k, parts);
         walks_[count_] = walk;
         walks_[count_].begin_vertex(part.sampler, 0);
-        whole_[count_++] = &whole;
+        whole_[count_++] = whole;
     }
     // To the paths they are of what they have brought.
     void gather() {
         for (std::size_t k = 0; k < count_; ++k) {
-            whole_[k]->radiance += paths_[k].radiance;
-            whole_[k]->complete &= paths_[k].complete;
+            all_[whole_[k]].radiance += paths_[k].radiance;
+            all_[whole_[k]].complete &= paths_[k].complete;
         }
         count_ = 0;
     }
 
   private:
+    std::span<CameraPath> all_;
     std::array<CameraPath, batch_size> paths_;
-    std::array<CameraPath*, batch_size> whole_;
+    std::array<std::size_t, batch_size> whole_;
     std::array<Walk, batch_size> walks_;
     std::size_t count_ = 0;
 };

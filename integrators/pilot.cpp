@@ -21,16 +21,18 @@ constexpr int most_sighted = 32;                           // along either side,
 class ColoursOfRow {
   public:
     ColoursOfRow(Scene const& scene, PilotBlocks const& blocks, int rounds)
-        : film_(PilotBlocks::paths_of_block, rounds * blocks.columns, cie1931_2deg(), scene.grid), rounds_(rounds) {}
+        : film_(2 * blocks.places(), rounds * blocks.columns, cie1931_2deg(), scene.grid),
+          rounds_(rounds),
+          places_(blocks.places()) {}
     void add(int path, int round, int block, CameraPath const& p) {
         if (p.complete && is_finite(p.radiance)) film_.add(path, block * rounds_ + round, p.wavelengths, p.radiance);
     }
     BlockNoise noise(int block, double rays) const {
         BlockNoise noise;
-        for (int i = 0; i < PilotBlocks::paths_of_block; i += 2) {
+        for (int i = 0; i < places_; ++i) {
             Eigen::Array3d before(0, 0, 0), sum_a = before, sum_b = before;
             for (int r = 0; r < rounds_; ++r) {
-                Eigen::Array3d const a = colour(i, r, block), b = colour(i + 1, r, block), both = (a + b) / 2;
+                Eigen::Array3d const a = colour(i, r, block), b = colour(i + places_, r, block), both = (a + b) / 2;
                 sum_a += a, sum_b += b;
                 noise.mean += both;
                 noise.apart += (a - b).square() / 2;
@@ -39,12 +41,11 @@ class ColoursOfRow {
             }
             noise.of_mean += (sum_a - sum_b).square() / 2;
         }
-        constexpr double places = PilotBlocks::places;
-        double const pairs = places * rounds_;
+        double const pairs = places_ * rounds_;
         noise.mean /= pairs;
         noise.apart /= pairs;
         noise.of_mean /= pairs;
-        noise.shared = noise.shared / (places * (rounds_ - 1)) - noise.apart / 2;
+        noise.shared = noise.shared / (places_ * (rounds_ - 1)) - noise.apart / 2;
         noise.rays = rays / (2 * pairs);
         return noise;
     }
@@ -54,7 +55,7 @@ class ColoursOfRow {
         return to_vector(film_.mean(path, block * rounds_ + round)).array();
     }
     Film film_;
-    int rounds_;
+    int rounds_, places_;
 };
 
 PathStarter starter_of(Scene const& scene, RenderPlan const& plan, std::uint64_t seed) {
@@ -63,7 +64,8 @@ PathStarter starter_of(Scene const& scene, RenderPlan const& plan, std::uint64_t
 
 }  // namespace
 
-PilotBlocks::PilotBlocks(Scene const& scene, int least_side) : width_(scene.film.width), height_(scene.film.height) {
+PilotBlocks::PilotBlocks(Scene const& scene, int least_side, Places places)
+    : width_(scene.film.width), height_(scene.film.height), side_(places == Places::neighbours ? widest_block : 2) {
     int const block = std::max(least_side, (std::max(width_, height_) + most_blocks - 1) / most_blocks);
     columns = std::max(1, width_ / block), rows = std::max(1, height_ / block);
 }
@@ -73,13 +75,15 @@ PilotStarter::PilotStarter(Scene const& scene, RenderPlan const& plan, Pairs pai
     if (pairs == Pairs::paths) second_.emplace(starter_of(scene, plan, second_seed));
 }
 
-void PilotStarter::start(PilotBlocks const& blocks, int x, int y, int round, PilotBlocks::Paths& paths) const {
-    for (int i = 0; i < PilotBlocks::paths_of_block; ++i) {
-        CameraPath& path = paths[static_cast<std::size_t>(i)];
-        auto const [u, v] = blocks.pixel(x, y, i);
-        int const which = i % 2;
-        (second_ && which == 1 ? *second_ : first_).start(u, v, static_cast<std::uint32_t>(round), path);
-        if (!second_) path.sampler.split(static_cast<std::uint32_t>(which), 2);
+void PilotStarter::start(PilotBlocks const& blocks, int x, int y, int round, bool together,
+                         PilotBlocks::Paths& paths) const {
+    auto const places = static_cast<std::size_t>(blocks.places());
+    for (std::size_t i = 0; i < 2 * places; ++i) {
+        std::size_t const which = i / places;
+        auto const [u, v] = blocks.pixel(x, y, static_cast<int>(i % places));
+        CameraPath const* const block = together ? &paths[which * places] : nullptr;
+        (second_ && which == 1 ? *second_ : first_).start(u, v, static_cast<std::uint32_t>(round), paths[i], block);
+        if (!second_) paths[i].sampler.split(static_cast<std::uint32_t>(which), 2);
     }
 }
 
@@ -114,7 +118,7 @@ void Sighted::add(Sighted const& other) {
 }
 
 Image<BlockNoise> noise_of(Scene const& scene, PilotBlocks const& blocks, int rounds, PilotStarter const& starter,
-                           FollowPaths const& follow, RayStatistics& all, Sighted* seen) {
+                           bool together, FollowPaths const& follow, RayStatistics& all, Sighted* seen) {
     Image<BlockNoise> noise(blocks.columns, blocks.rows);
     auto const rows = static_cast<std::size_t>(blocks.rows);
     std::vector<RayStatistics> rays_of_row(rows);
@@ -124,18 +128,18 @@ Image<BlockNoise> noise_of(Scene const& scene, PilotBlocks const& blocks, int ro
     tbb::parallel_for(0, blocks.rows, [&](int y) {
         auto const row = static_cast<std::size_t>(y);
         ColoursOfRow colours = none;
-        PilotBlocks::Paths paths;
+        PilotBlocks::Paths room;
+        auto const paths = std::span(room).first(static_cast<std::size_t>(2 * blocks.places()));
         for (int x = 0; x < blocks.columns; ++x) {
             RayStatistics statistics;
             for (int round = 0; round < rounds; ++round) {
-                starter.start(blocks, x, y, round, paths);
+                starter.start(blocks, x, y, round, together, room);
                 follow(paths, statistics);
-                for (int i = 0; i < PilotBlocks::paths_of_block; ++i)
-                    colours.add(i, round, x, paths[static_cast<std::size_t>(i)]);
+                for (std::size_t i = 0; i < paths.size(); ++i) colours.add(static_cast<int>(i), round, x, paths[i]);
                 if (seen)
                     for (CameraPath const& path : paths) seen_by_row[row].add(path, starter.first());
             }
-            noise.at(x, y) = colours.noise(x, static_cast<double>(statistics.rays()));
+            noise.at(x, y) = colours.noise(x, statistics.work());
             rays_of_row[row].add(statistics);
         }
     });

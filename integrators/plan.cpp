@@ -261,9 +261,11 @@ RenderPlan make_plan(Scene const& scene) {
     AutomaticChoice const choice = choose_integrator(scene, plan);
     decide("integrator auto", true,
            fmt::format("{}: {}; paths are {}{}", choice.name, choice.reason,
-                       plan.whole_paths ? "not split" : "split where a pilot finds noise",
+                       plan.whole_paths ? "not split"
+                                        : "split where a pilot finds noise, or share what their neighbours find, if a "
+                                          "trial finds it better",
                        choice.trial ? fmt::format("; after {} samples bidirectional-power, if a trial finds it better",
-                                                  samples_before_trial)
+                                                  samples_before_joining)
                                     : ""));
     return plan;
 }

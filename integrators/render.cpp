@@ -30,6 +30,12 @@ struct ThreadStatistics {
 // Paths of neighbouring pixels and samples, followed together and added to the film in the order of their start.
 class Batch {
   public:
+    // Place in the film, or beside it.
+    struct Pixel {
+        int x, y;
+        bool wanted = true;  // false: its path is followed for those of its block alone
+    };
+
     Batch(Scene const& scene, Integrator const& integrator, PathStarter const& starter, Film& film,
           LightGroupFilms* groups, ThreadStatistics& statistics)
         : scene_(scene),
@@ -43,27 +49,28 @@ class Batch {
           of_group_(groups ? batch_size * groups->count() : 0),
           statistics_(statistics) {}
 
-    void start(int x, int y, std::uint32_t sample) {
+    void start(std::span<Pixel const> block, std::uint32_t sample) {
+        if (count_ + block.size() > batch_size) finish();
         if (count_ == 0) begin_timing();
-        origin_[count_] = {x, y};
-        if (groups_) paths_[count_].shares = empty_shares(count_);
-        starter_.start(x + film_.place().x0, y + film_.place().y0, sample, paths_[count_++]);
+        CameraPath const* const first = &paths_[count_];
+        for (Pixel const& pixel : block) {
+            origin_[count_] = pixel;
+            if (groups_) paths_[count_].shares = empty_shares(count_);
+            starter_.start(pixel.x + film_.place().x0, pixel.y + film_.place().y0, sample, paths_[count_++], first);
+        }
         if (count_ == batch_size) finish();
     }
     void finish() {
         if (count_ == 0) return;
         integrator_.follow(scene_, std::span(paths_).first(count_), statistics_.rays);
-        for (std::size_t i = 0; i < count_; ++i) deposit(origin_[i], paths_[i]);
+        for (std::size_t i = 0; i < count_; ++i)
+            if (origin_[i].wanted) deposit(origin_[i], paths_[i]);
         if (splats_) film_.count_light_paths(light_paths_, weight_);
         count_ = light_paths_ = 0;
         if (statistics_.rays.timed) statistics_.timed_ticks += processor_ticks() - started_;
     }
 
   private:
-    struct Pixel {
-        int x, y;
-    };
-
     void begin_timing() {
         statistics_.rays.timed = statistics_.batches++ % batches_per_timing == batches_per_timing / 2;
         if (statistics_.rays.timed) started_ = processor_ticks();
@@ -79,7 +86,7 @@ class Batch {
         if (!may_be_negative_ && is_negative(path.radiance)) return Rejection::negative;
         return std::nullopt;
     }
-    void deposit(Pixel p, CameraPath const& path) {
+    void deposit(Pixel const& p, CameraPath const& path) {
         auto const cause = why_rejected(path);
         if (cause) {
             film_.reject(p.x, p.y, *cause);
@@ -124,8 +131,11 @@ class Loop {
           film_(film),
           starter_(scene, plan, film.place().picture_width, film.place().picture_height, settings.sampler,
                    settings.seed),
-          columns_((film.width() + tile_size - 1) / tile_size),
-          rows_((film.height() + tile_size - 1) / tile_size) {}
+          side_(integrator.block_side()),
+          x0_(film.place().x0 / tile_size * tile_size - film.place().x0),
+          y0_(film.place().y0 / tile_size * tile_size - film.place().y0),
+          columns_((film.width() - x0_ + tile_size - 1) / tile_size),
+          rows_((film.height() - y0_ + tile_size - 1) / tile_size) {}
 
     int tile_count() const { return columns_ * rows_; }
     bool stopped() const { return settings_.interrupted && settings_.interrupted->load(std::memory_order_relaxed); }
@@ -133,13 +143,9 @@ class Loop {
     // What every pixel of a tile lacks of `goal` samples, or of its own goal.
     void render_tile(int tile, std::uint32_t goal) {
         Batch batch(scene_, integrator_, starter_, film_, settings_.groups, statistics_.local());
-        int const x0 = tile % columns_ * tile_size, y0 = tile / columns_ * tile_size;
-        for (int y = y0; y < std::min(y0 + tile_size, film_.height()); ++y)
-            for (int x = x0; x < std::min(x0 + tile_size, film_.width()); ++x)
-                for (std::uint32_t s = film_.pixel(x, y).taken(),
-                                   end = settings_.goals ? settings_.goals->at(x, y) : goal;
-                     s < end; ++s)
-                    batch.start(x, y, settings_.first_sample + s);
+        int const x0 = x0_ + tile % columns_ * tile_size, y0 = y0_ + tile / columns_ * tile_size;
+        for (int y = y0; y < std::min(y0 + tile_size, film_.height()); y += side_)
+            for (int x = x0; x < std::min(x0 + tile_size, film_.width()); x += side_) render_block(batch, x, y, goal);
         batch.finish();
     }
 
@@ -153,11 +159,37 @@ class Loop {
     }
 
   private:
+    // The block whose first pixel is (x0, y0): all its pixels that are in the picture, whether or not in the film.
+    void render_block(Batch& batch, int x0, int y0, std::uint32_t goal) {
+        std::array<Batch::Pixel, most_in_block> block;
+        std::array<std::uint32_t, most_in_block> from, to;
+        std::size_t count = 0;
+        std::uint32_t first = goal, last = 0;
+        for (int y = y0; y < std::min(y0 + side_, film_.place().picture_height - film_.place().y0); ++y)
+            for (int x = x0; x < std::min(x0 + side_, film_.place().picture_width - film_.place().x0); ++x) {
+                block[count] = {x, y};
+                from[count] = to[count] = 0;
+                if (x >= 0 && y >= 0 && x < film_.width() && y < film_.height()) {
+                    from[count] = film_.pixel(x, y).taken();
+                    to[count] = settings_.goals ? settings_.goals->at(x, y) : goal;
+                    first = std::min(first, from[count]), last = std::max(last, to[count]);
+                }
+                ++count;
+            }
+        for (std::uint32_t s = first; s < last; ++s) {
+            for (std::size_t i = 0; i < count; ++i) block[i].wanted = from[i] <= s && s < to[i];
+            if (std::ranges::any_of(std::span(block).first(count), &Batch::Pixel::wanted))
+                batch.start(std::span(block).first(count), settings_.first_sample + s);
+        }
+    }
+
     Scene const& scene_;
     Integrator const& integrator_;
     RenderSettings const& settings_;
     Film& film_;
     PathStarter starter_;
+    int side_;     // of a block
+    int x0_, y0_;  // of the first tile: tiles are those of the whole picture, so that none cuts a block
     int columns_, rows_;
     tbb::enumerable_thread_specific<ThreadStatistics> statistics_;
 };

@@ -144,7 +144,7 @@ LearntSplits SplitPilot::learn(Scene const& scene, std::uint32_t sample, FollowP
     if (stage.rounds == 0) return {{}, beside.follow ? std::optional(0.0f) : std::nullopt};
     if (!starter_) starter_.emplace(scene, plan_, PilotStarter::Pairs::parts);
     PilotBlocks const blocks(scene, stage.block);
-    Image<BlockNoise> const noise = noise_of(scene, blocks, stage.rounds, *starter_, follow, statistics);
+    Image<BlockNoise> const noise = noise_of(scene, blocks, stage.rounds, *starter_, false, follow, statistics);
     Image<Pilot> const pilot = spread(noise);
     int const most = std::min(most_, stage.most);
     double const factor = best_factor(pilot, most, stage.pays);
@@ -162,7 +162,7 @@ LearntSplits SplitPilot::learn(Scene const& scene, std::uint32_t sample, FollowP
         auto const light_paths = [&](std::span<CameraPath> paths, RayStatistics& rays) {
             beside.follow(paths, learnt.splits, rays);
         };
-        noise_of(scene, blocks, stage.rounds, *starter_, light_paths, statistics, &sighted);
+        noise_of(scene, blocks, stage.rounds, *starter_, false, light_paths, statistics, &sighted);
         learnt.light_paths = best_share(noise, cost_of(pilot, factor, most), sighted, beside.share);
         worth *= worth_of_light_paths;
     }

@@ -13,17 +13,22 @@
 // by: it may be 0. The power heuristic has the square of every ratio. [Veach 1997, sec. 10.2] [Georgiev 2012]
 #pragma once
 
+#include <bit>
+#include <cstdint>
+
 #include "integrators/meeting.h"
 
 namespace iride {
 
 struct BalanceHeuristic {
     static constexpr bool joins = true;
+    static float shown(float ratio) { return ratio; }
     static Lanes of(Lanes const& ratio) { return ratio; }
     static float of(float ratio) { return ratio; }
 };
 struct PowerHeuristic {
     static constexpr bool joins = true;
+    static float shown(float ratio) { return ratio; }
     static Lanes of(Lanes const& ratio) { return ratio * ratio; }
     static float of(float ratio) { return ratio * ratio; }
 };
@@ -33,6 +38,13 @@ struct PowerHeuristic {
 template <class Heuristic>
 struct WithoutJoins : Heuristic {
     static constexpr bool joins = false;
+    // How often the first vertex is shown to the camera, over how often a camera path finds it, as a power of two: both
+    // sides weigh by the same number, and neighbours that share what they find mostly do.
+    // (integrators/shared_vertices.h)
+    static float shown(float ratio) {
+        constexpr std::uint32_t half = 0x00400000, exponent = 0xff800000;  // of a float
+        return std::bit_cast<float>((std::bit_cast<std::uint32_t>(ratio) + half) & exponent);
+    }
 };
 
 // What is known of the techniques that leave the last vertices of a subpath to the other side. `reach`: that of the

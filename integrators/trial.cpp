@@ -18,7 +18,8 @@ Evidence evidence_of(Integrator const& integrator, Scene const& scene, PilotBloc
         integrator.follow(scene, paths, rays);
     };
     Sighted seen(scene, blocks);
-    Image<BlockNoise> const noise = noise_of(scene, blocks, samples, starter, follow, all, &seen);
+    Image<BlockNoise> const noise =
+        noise_of(scene, blocks, samples, starter, integrator.block_side() > 1, follow, all, &seen);
     Evidence found{mean_around(each(noise, &BlockNoise::mean), seen),
                    averaged(each(noise, &BlockNoise::of_mean), seen.width(), seen.height()), seen.rays_of_path()};
     Image<Eigen::Array3d> const of_light_paths = seen.variance();

@@ -15,8 +15,8 @@ struct TrialResult {
     double rays_error;  // rays x error
     double variance;
 };
-// By `samples` of each of two independent estimates at each place. A function of scene, blocks, starter, samples and
-// what the integrators are made for alone.
+// By `samples` of each of two independent estimates at each place; neighbours stand together where an integrator has
+// blocks of pixels. A function of scene, blocks, starter, samples and what the integrators are made for alone.
 TrialResult try_out(Scene const& scene, PilotBlocks const& blocks, PilotStarter const& starter, int samples,
                     Integrator const& first, Integrator const& second, RayStatistics& statistics);
 

@@ -22,6 +22,7 @@ struct MaterialTraits {
     bool filmed = false;       // thin films interfere
     bool textured = false;     // looks at uv
     bool diffuse = false;      // scatters all over the side that light comes from, with no peak
+    bool lambertian = false;   // sends what it scatters in all directions alike: its closures are Lambert's
     bool anisotropic = false;  // looks at the tangent
     Vector2 grain{1, 0};       // x axis of anisotropic facets along tangent and bitangent of the surface
 };

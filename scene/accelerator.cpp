@@ -18,6 +18,7 @@ std::uint64_t processor_ticks() { return __rdtsc(); }
 void RayStatistics::add(RayStatistics const& other) {
     closest_rays += other.closest_rays;
     shadow_rays += other.shadow_rays;
+    shared_rays += other.shared_rays;
     traced_ticks += other.traced_ticks;
 }
 

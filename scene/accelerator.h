@@ -53,12 +53,18 @@ struct RecordedRay {
 // Counters of one thread. Every 64th camera path is timed, ray by ray, to tell the share of Embree.
 struct RayStatistics {
     std::uint64_t closest_rays = 0, shadow_rays = 0;
+    std::uint64_t shared_rays = 0;   // of the latter, those that only tell what neighbours share
     std::uint64_t traced_ticks = 0;  // inside Embree, on timed paths
     bool timed = false;
     std::vector<RecordedRay>* recording = nullptr;  // every ray goes here if it is set
 
     void add(RayStatistics const& other);
     std::uint64_t rays() const { return closest_rays + shadow_rays; }
+    // Rays, each for as much as goes with it: little with those that are shared (measured).
+    double work() const {
+        constexpr double of_shared = 0.35;
+        return static_cast<double>(rays()) - (1 - of_shared) * static_cast<double>(shared_rays);
+    }
 };
 
 class Accelerator {

@@ -60,7 +60,7 @@ Measured measured(Scene const& scene, char const* integrator, Film const& mean) 
 
 bool brings_splats(Scene const& scene, std::uint32_t first_sample) {
     RenderPlan const plan = make_plan(scene);
-    auto const integrator = make_integrator("auto", scene, plan);
+    auto const integrator = make_integrator("auto:share=false", scene, plan);
     RayStatistics rays;
     integrator->prepare(scene, {0, first_sample, first_sample + 1}, rays);
     PathStarter const starter(scene, plan, scene.film.width, scene.film.height, SamplerKind::sobol, 1);
@@ -105,7 +105,7 @@ TEST_CASE("a trial's noise is that of stratified samples", "[law]") {
     };
     RayStatistics rays;
     Eigen::Array3d independent(0, 0, 0), stratified = independent;
-    for (BlockNoise const& n : noise_of(*scene, PilotBlocks(*scene, 2), 8, starter, follow, rays).pixel)
+    for (BlockNoise const& n : noise_of(*scene, PilotBlocks(*scene, 2), 8, starter, false, follow, rays).pixel)
         independent += n.apart, stratified += n.of_mean;
     CHECK(stratified[1] < independent[1] / 8);
     CHECK(stratified[1] > independent[1] / 1000);
@@ -126,7 +126,7 @@ TEST_CASE("samples before and after the trial bring the same light together", "[
     constexpr int pictures = 100, spp = 22;
     Film few = make_film(*scene);
     for (int i = 0; i < pictures; ++i)
-        few.add(rendered(*scene, "auto",
+        few.add(rendered(*scene, "auto:share=false",
                          {.spp = spp, .seed = 100u + static_cast<unsigned>(i), .sampler = SamplerKind::independent}));
     Film const many = rendered(*scene, "path", {.spp = 8000, .seed = 5, .sampler = SamplerKind::independent});
     auto const a = picture_mean(few), b = picture_mean(many);
@@ -146,7 +146,8 @@ TEST_CASE("parts before and after the trial, and a crop without it, add up to on
         RenderPlan without = plan;
         if (crop) without.no_light_paths = "a crop has no light paths of its own";
         Film film = make_film(*scene, crop);
-        render(*scene, without, *make_integrator("auto", *scene, without), {.spp = spp, .first_sample = first}, film);
+        render(*scene, without, *make_integrator("auto:share=false", *scene, without),
+               {.spp = spp, .first_sample = first}, film);
         return film;
     };
     Film const whole = part(20, 0), early = part(16, 0), late = part(4, 16), crop = part(24, 100, Crop{4, 4, 20, 20});
@@ -185,7 +186,7 @@ TEST_CASE("a picture that is interrupted after the trial is as bright in all its
         std::atomic<bool> stop = false;
         int tiles = 0;
         RenderSettings settings{.spp = 16, .seed = seed, .threads = 1, .interrupted = &stop};
-        auto const integrator = make_integrator("auto", *scene, plan);
+        auto const integrator = make_integrator("auto:share=false", *scene, plan);
         render(*scene, plan, *integrator, settings, film);
         Film const before = film;
         settings.spp = 48 * 16;  // in passes of 48
@@ -208,23 +209,25 @@ TEST_CASE("auto's pictures are the same bits whatever passes and stops surround 
     auto const scene = room(true, 33);
     auto const picture = [&](RenderSettings settings) {
         settings.spp = 20;
-        return values_of(rendered(*scene, "auto", settings));
+        return values_of(rendered(*scene, "auto:share=false", settings));
     };
     auto const one = picture({.threads = 1});
     CHECK((picture({.threads = 2, .reversed_tiles = true}) == one));
     CHECK((picture({.seconds = 1e9}) == one));  // passes that double
     RenderPlan const plan = make_plan(*scene);
-    auto const again = make_integrator("auto", *scene, plan);
+    auto const again = make_integrator("auto:share=false", *scene, plan);
     for (int i = 0; i < 2; ++i) {
         Film whole = make_film(*scene);
         render(*scene, plan, *again, {.spp = 20}, whole);
         CHECK((values_of(whole) == one));
     }
     Film film = make_film(*scene);
-    for (int spp : {3, 16, 18, 20}) render(*scene, plan, *make_integrator("auto", *scene, plan), {.spp = spp}, film);
+    for (int spp : {3, 16, 18, 20})
+        render(*scene, plan, *make_integrator("auto:share=false", *scene, plan), {.spp = spp}, film);
     CHECK((values_of(film) == one));
     auto const unsplit = [&](int threads, std::optional<double> seconds) {
-        return values_of(rendered(*scene, "auto:splits=1", {.spp = 24, .seconds = seconds, .threads = threads}));
+        return values_of(
+            rendered(*scene, "auto:splits=1,share=false", {.spp = 24, .seconds = seconds, .threads = threads}));
     };
     CHECK((unsplit(1, {}) == unsplit(2, 1e9)));
 }
