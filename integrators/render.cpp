@@ -17,7 +17,8 @@ namespace iride {
 
 namespace {
 
-constexpr int tile_size = 16;  // pixels: small enough to balance, large enough to keep the caches warm
+// Pixels: small enough to balance, large enough to keep the caches warm, and not to cut up many blocks of neighbours.
+constexpr int tile_of_pixels = 16, tile_of_blocks = 32;
 constexpr std::uint32_t batches_per_timing =
     32;  // every so many batches of a thread, one tells the time spent in Embree
 
@@ -132,10 +133,11 @@ class Loop {
           starter_(scene, plan, film.place().picture_width, film.place().picture_height, settings.sampler,
                    settings.seed),
           side_(integrator.block_side()),
-          x0_(film.place().x0 / tile_size * tile_size - film.place().x0),
-          y0_(film.place().y0 / tile_size * tile_size - film.place().y0),
-          columns_((film.width() - x0_ + tile_size - 1) / tile_size),
-          rows_((film.height() - y0_ + tile_size - 1) / tile_size) {}
+          tile_size_(side_ > 1 ? tile_of_blocks : tile_of_pixels),
+          x0_(film.place().x0 / tile_size_ * tile_size_ - film.place().x0),
+          y0_(film.place().y0 / tile_size_ * tile_size_ - film.place().y0),
+          columns_((film.width() - x0_ + tile_size_ - 1) / tile_size_),
+          rows_((film.height() - y0_ + tile_size_ - 1) / tile_size_) {}
 
     int tile_count() const { return columns_ * rows_; }
     bool stopped() const { return settings_.interrupted && settings_.interrupted->load(std::memory_order_relaxed); }
@@ -143,9 +145,11 @@ class Loop {
     // What every pixel of a tile lacks of `goal` samples, or of its own goal.
     void render_tile(int tile, std::uint32_t goal) {
         Batch batch(scene_, integrator_, starter_, film_, settings_.groups, statistics_.local());
-        int const x0 = x0_ + tile % columns_ * tile_size, y0 = y0_ + tile / columns_ * tile_size;
-        for (int y = y0; y < std::min(y0 + tile_size, film_.height()); y += side_)
-            for (int x = x0; x < std::min(x0 + tile_size, film_.width()); x += side_) render_block(batch, x, y, goal);
+        Rectangle const all = tile_at(tile);
+        if (side_ == 1)
+            for_each_block(all, 1, 0, 0, [&](Rectangle const& pixel) { render_samples(batch, pixel, goal); });
+        else
+            render_blocks(batch, all, goal);
         batch.finish();
     }
 
@@ -159,28 +163,60 @@ class Loop {
     }
 
   private:
-    // The block whose first pixel is (x0, y0): all its pixels that are in the picture, whether or not in the film.
-    void render_block(Batch& batch, int x0, int y0, std::uint32_t goal) {
-        std::array<Batch::Pixel, most_in_block> block;
-        std::array<std::uint32_t, most_in_block> from, to;
-        std::size_t count = 0;
-        std::uint32_t first = goal, last = 0;
-        for (int y = y0; y < std::min(y0 + side_, film_.place().picture_height - film_.place().y0); ++y)
-            for (int x = x0; x < std::min(x0 + side_, film_.place().picture_width - film_.place().x0); ++x) {
-                block[count] = {x, y};
-                from[count] = to[count] = 0;
-                if (x >= 0 && y >= 0 && x < film_.width() && y < film_.height()) {
-                    from[count] = film_.pixel(x, y).taken();
-                    to[count] = settings_.goals ? settings_.goals->at(x, y) : goal;
-                    first = std::min(first, from[count]), last = std::max(last, to[count]);
-                }
-                ++count;
-            }
+    // Of pixels of the film, or beside it.
+    struct Rectangle {
+        int x0, y0, x1, y1;
+    };
+    Rectangle tile_at(int tile) const {
+        int const x = x0_ + tile % columns_ * tile_size_, y = y0_ + tile / columns_ * tile_size_;
+        return {x, y, std::min(x + tile_size_, film_.place().picture_width - film_.place().x0),
+                std::min(y + tile_size_, film_.place().picture_height - film_.place().y0)};
+    }
+    // Blocks of a grid that is moved by (dx, dy), cut off at the rectangle's edges.
+    template <class Visit>
+    static void for_each_block(Rectangle const& r, int side, int dx, int dy, Visit&& visit) {
+        for (int y = r.y0 - dy; y < r.y1; y += side)
+            for (int x = r.x0 - dx; x < r.x1; x += side)
+                visit({std::max(x, r.x0), std::max(y, r.y0), std::min(x + side, r.x1), std::min(y + side, r.y1)});
+    }
+    // Sample by sample, in blocks that are moved by half their side: what neighbours have in common is not seen as a
+    // grid, and a quarter of a block is still one of those that the sampler zsobol shares numbers out to.
+    void render_blocks(Batch& batch, Rectangle const& tile, std::uint32_t goal) {
+        auto const [first, last] = lacking(tile, goal);
         for (std::uint32_t s = first; s < last; ++s) {
-            for (std::size_t i = 0; i < count; ++i) block[i].wanted = from[i] <= s && s < to[i];
-            if (std::ranges::any_of(std::span(block).first(count), &Batch::Pixel::wanted))
-                batch.start(std::span(block).first(count), settings_.first_sample + s);
+            auto const moved = [&](int bit) { return (settings_.first_sample + s) >> bit & 1 ? side_ / 2 : 0; };
+            for_each_block(tile, side_, moved(0), moved(1),
+                           [&](Rectangle const& block) { render_block(batch, block, s, goal); });
         }
+    }
+    void render_samples(Batch& batch, Rectangle const& block, std::uint32_t goal) {
+        auto const [first, last] = lacking(block, goal);
+        for (std::uint32_t s = first; s < last; ++s) render_block(batch, block, s, goal);
+    }
+    // Samples [first, second) that some of the pixels lack.
+    std::pair<std::uint32_t, std::uint32_t> lacking(Rectangle const& r, std::uint32_t goal) const {
+        std::pair<std::uint32_t, std::uint32_t> s{goal, 0};
+        for (int y = std::max(0, r.y0); y < std::min(r.y1, film_.height()); ++y)
+            for (int x = std::max(0, r.x0); x < std::min(r.x1, film_.width()); ++x)
+                s = {std::min(s.first, film_.pixel(x, y).taken()), std::max(s.second, goal_of(x, y, goal))};
+        return s;
+    }
+    std::uint32_t goal_of(int x, int y, std::uint32_t goal) const {
+        return settings_.goals ? settings_.goals->at(x, y) : goal;
+    }
+    // A sample of all pixels of a block, if one lacks it: of those, too, that do not, or are not in the film.
+    void render_block(Batch& batch, Rectangle const& r, std::uint32_t sample, std::uint32_t goal) {
+        std::array<Batch::Pixel, most_in_block> block;
+        std::size_t count = 0;
+        bool any = false;
+        for (int y = r.y0; y < r.y1; ++y)
+            for (int x = r.x0; x < r.x1; ++x) {
+                bool const wanted = x >= 0 && y >= 0 && x < film_.width() && y < film_.height() &&
+                                    film_.pixel(x, y).taken() <= sample && sample < goal_of(x, y, goal);
+                block[count++] = {x, y, wanted};
+                any = any || wanted;
+            }
+        if (any) batch.start(std::span(block).first(count), settings_.first_sample + sample);
     }
 
     Scene const& scene_;
@@ -188,8 +224,8 @@ class Loop {
     RenderSettings const& settings_;
     Film& film_;
     PathStarter starter_;
-    int side_;     // of a block
-    int x0_, y0_;  // of the first tile: tiles are those of the whole picture, so that none cuts a block
+    int side_, tile_size_;
+    int x0_, y0_;  // of the first tile: tiles are those of the whole picture, and cut the same blocks in its crops
     int columns_, rows_;
     tbb::enumerable_thread_specific<ThreadStatistics> statistics_;
 };
