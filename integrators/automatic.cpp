@@ -82,7 +82,7 @@ class Automatic final : public Integrator {
                : now_ == shared_.get() ? *weight_of_shared_
                                        : split_->weight();
     }
-    int block_side() const override { return shared_ ? shared_->block_side() : 1; }
+    int block_side() const override { return now_->block_side(); }
     void follow(Scene const& scene, std::span<CameraPath> paths, RayStatistics& statistics) const override {
         now_->follow(scene, paths, statistics);
     }

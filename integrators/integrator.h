@@ -33,7 +33,7 @@ class Integrator {
     // What each sample of the pass counts beside those of others: about the reciprocal of its variance.
     virtual std::uint32_t weight() const { return 1; }
     // Side of the blocks of pixels whose paths of one sample are followed together and have the same wavelengths:
-    // 1 or widest_block.
+    // 1 or widest_block, the same throughout a pass.
     virtual int block_side() const { return 1; }
     // Follow at most batch_size paths, each on its own: what a path brings does not depend on those beside it but for
     // those of its block, which stand together.

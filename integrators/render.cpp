@@ -131,14 +131,23 @@ class Loop {
           settings_(settings),
           film_(film),
           starter_(scene, plan, film.place().picture_width, film.place().picture_height, settings.sampler,
-                   settings.seed),
-          side_(integrator.block_side()),
-          tile_size_(side_ > 1 ? tile_of_blocks : tile_of_pixels),
-          x0_(film.place().x0 / tile_size_ * tile_size_ - film.place().x0),
-          y0_(film.place().y0 / tile_size_ * tile_size_ - film.place().y0),
-          columns_((film.width() - x0_ + tile_size_ - 1) / tile_size_),
-          rows_((film.height() - y0_ + tile_size_ - 1) / tile_size_) {}
+                   settings.seed) {}
 
+    // After the integrator is prepared for it.
+    void begin_pass() {
+        FilmPlace const& p = film_.place();
+        side_ = integrator_.block_side();
+        tile_size_ = side_ > 1 ? tile_of_blocks : tile_of_pixels;
+        x0_ = p.x0 / tile_size_ * tile_size_ - p.x0, y0_ = p.y0 / tile_size_ * tile_size_ - p.y0;
+        columns_ = (film_.width() - x0_ + tile_size_ - 1) / tile_size_;
+        rows_ = (film_.height() - y0_ + tile_size_ - 1) / tile_size_;
+    }
+    // Of the film, in a tile.
+    int pixels_of(int tile) const {
+        Rectangle const r = tile_at(tile);
+        return (std::min(r.x1, film_.width()) - std::max(r.x0, 0)) *
+               (std::min(r.y1, film_.height()) - std::max(r.y0, 0));
+    }
     int tile_count() const { return columns_ * rows_; }
     bool stopped() const { return settings_.interrupted && settings_.interrupted->load(std::memory_order_relaxed); }
 
@@ -224,9 +233,10 @@ class Loop {
     RenderSettings const& settings_;
     Film& film_;
     PathStarter starter_;
-    int side_, tile_size_;
-    int x0_, y0_;  // of the first tile: tiles are those of the whole picture, and cut the same blocks in its crops
-    int columns_, rows_;
+    int side_ = 1, tile_size_ = tile_of_pixels;
+    int x0_ = 0,
+        y0_ = 0;  // of the first tile: tiles are those of the whole picture, and cut the same blocks in its crops
+    int columns_ = 0, rows_ = 0;
     tbb::enumerable_thread_specific<ThreadStatistics> statistics_;
 };
 
@@ -277,10 +287,10 @@ RenderReport render(Scene const& scene, RenderPlan const& plan, Integrator& inte
     if (settings.threads > tbb::info::default_concurrency())
         more.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(settings.threads));
     tbb::task_arena arena(settings.threads > 0 ? settings.threads : tbb::task_arena::automatic);
-    std::atomic<std::uint64_t> tiles_done{0};
+    std::atomic<std::uint64_t> samples_done{0};
     int const before = report.spp = samples_of_all(film);
     auto const share = [&] {
-        double const in_pass = static_cast<double>(tiles_done) / loop.tile_count();
+        double const in_pass = static_cast<double>(samples_done) / static_cast<double>(film.pixels().size());
         if (settings.seconds) return std::min(1.0, seconds_since(start) / *settings.seconds);
         return std::min(1.0, settings.goals ? in_pass : (before + in_pass) / settings.spp);
     };
@@ -295,11 +305,12 @@ RenderReport render(Scene const& scene, RenderPlan const& plan, Integrator& inte
             integrator.prepare(scene, {settings.seed, settings.first_sample + first, settings.first_sample + last},
                                report.rays);
             if (integrator.splats()) film.add_splat_layer();
+            loop.begin_pass();
             tbb::parallel_for(0, loop.tile_count(), [&](int i) {
                 if (loop.stopped()) return;
                 int const tile = settings.reversed_tiles ? loop.tile_count() - 1 - i : i;
                 loop.render_tile(tile, last);
-                tiles_done += static_cast<std::uint64_t>(pass);
+                samples_done += static_cast<std::uint64_t>(pass * loop.pixels_of(tile));
                 if (settings.on_progress) settings.on_progress(report.spp, share());
             });
         });
