@@ -37,7 +37,7 @@ class Meeting {
           back_(to_previous),
           in_(in),
           seen_(scene, hit_, back_, wavelengths, in_ ? &*in_ : nullptr),
-          flat_(hit_.point.normal == hit_.point.geometric_normal),
+          flat_(is_flat(hit_.point)),
           two_sided_(scene.material(hit_.shape->material).traits.two_sided) {}
 
     Hit const& hit() const { return hit_; }

@@ -131,9 +131,8 @@ class Path final : public Integrator {
     void go_on_in_parts(Scene const& scene, std::span<CameraPath> paths, Walks& walks, Alive const& alive,
                         Exchange& between, RayStatistics& statistics) const {
         Parts<Walk> parts(paths);
-        std::optional<FirstVertices> first;
         std::optional<SharedVertices<Walk>> shared;
-        if (shares_) shared.emplace(first.emplace(first_vertices(scene, paths, walks, alive)), parts);
+        if (shares_) shared.emplace(first_vertices(scene, paths, walks, alive), parts);
         auto const finish = [&] {
             Alive all(parts.size());
             go_on(scene, parts.paths(), parts.walks(), all, between, statistics, shared ? &*shared : nullptr);
@@ -157,7 +156,7 @@ class Path final : public Integrator {
         FirstVertices first(paths);
         alive.for_each([&](std::size_t i) {
             Walk& walk = walks[i];
-            if (walk.is_afloat() || !is_lambertian(scene, walk)) return;
+            if (!is_lambertian(scene, walk)) return;
             if constexpr (Media)
                 if (walk.in.medium().attenuates()) return;
             float rivals = 0;

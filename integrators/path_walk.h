@@ -104,6 +104,11 @@ template <class Walk>
 bool is_dense(Scene const& scene, Walk const& walk) {
     return scene.material(walk.hit.shape->material).traits.has_density;
 }
+// Whether what leaves it is the same in all directions.
+template <class Walk>
+bool is_lambertian(Scene const& scene, Walk const& walk) {
+    return !walk.is_afloat() && scene.material(walk.hit.shape->material).traits.lambertian;
+}
 // Whether it scatters so evenly that light samples alone find its light.
 template <class Walk>
 bool is_diffuse(Scene const& scene, Walk const& walk) {

@@ -20,6 +20,9 @@ inline void describe_meeting(SurfacePoint& point, Direction const& to_viewer, fl
     point.choice = choice;
 }
 
+// Whether the shading normal is that of the geometry.
+inline bool is_flat(SurfacePoint const& point) { return point.normal == point.geometric_normal; }
+
 // A surface point met from direction `to_viewer`: closure, and the frame its directions are in.
 struct Interaction {
     Bsdf bsdf;

@@ -16,13 +16,6 @@
 
 namespace iride {
 
-// Whether what leaves the surface there is the same in all directions.
-template <class Walk>
-bool is_lambertian(Scene const& scene, Walk const& walk) {
-    return scene.material(walk.hit.shape->material).traits.lambertian;
-}
-inline bool is_flat(SurfacePoint const& point) { return point.normal == point.geometric_normal; }
-
 // The first vertices of a batch's paths, block by block.
 class FirstVertices {
   public:
@@ -131,7 +124,7 @@ class FirstVertices {
 template <class Walk>
 class SharedVertices {
   public:
-    SharedVertices(FirstVertices const& first, Parts<Walk>& parts) : first_(first), parts_(parts) {}
+    SharedVertices(FirstVertices first, Parts<Walk>& parts) : first_(std::move(first)), parts_(parts) {}
 
     // Those alive have come to their second vertices: from there on they find what leaves these.
     void begin(Scene const& scene, Alive const& alive, RayStatistics& statistics) {
@@ -164,7 +157,7 @@ class SharedVertices {
             for (std::size_t j = 0; j < most_in_block; ++j) {
                 if (!(found.shares[j] > 0)) continue;
                 brought_[first + j] += first_.at(first + j).reflectance * (part.radiance * found.shares[j]);
-                complete_[first + j] &= part.complete;
+                given_up_[first + j] |= !part.complete;
             }
             part.radiance = found.before;
             part.part = found.of_sample;
@@ -174,7 +167,7 @@ class SharedVertices {
     void bring(std::span<CameraPath> paths) const {
         for (std::size_t i = 0; i < paths.size(); ++i) {
             paths[i].radiance += brought_[i];
-            paths[i].complete &= complete_[i];
+            paths[i].complete &= !given_up_[i];
         }
     }
 
@@ -185,18 +178,12 @@ class SharedVertices {
         Radiance before;  // its second vertex
         float of_sample;  // CameraPath::part
     };
-    FirstVertices const& first_;
+    FirstVertices first_;
     Parts<Walk>& parts_;
     std::array<Found, batch_size> found_;
     std::size_t count_ = 0;
     std::array<Radiance, batch_size> brought_{};
-    std::array<bool, batch_size> complete_ = filled();
-
-    static std::array<bool, batch_size> filled() {
-        std::array<bool, batch_size> all;
-        all.fill(true);
-        return all;
-    }
+    std::array<bool, batch_size> given_up_{};
 };
 
 }  // namespace iride

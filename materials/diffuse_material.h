@@ -10,7 +10,8 @@ namespace iride {
 class DiffuseMaterial : public Material {
   public:
     explicit DiffuseMaterial(ReflectanceMap reflectance)
-        : Material({.textured = reflectance.varies(), .diffuse = true, .lambertian = true}), reflectance_(std::move(reflectance)) {}
+        : Material({.textured = reflectance.varies(), .diffuse = true, .lambertian = true}),
+          reflectance_(std::move(reflectance)) {}
     Bsdf at(SurfacePoint const& point, Wavelengths const& w) const override {
         return Lambert{reflectance_.at(point, w)};
     }

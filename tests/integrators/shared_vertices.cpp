@@ -79,9 +79,8 @@ double noise(Scene const& scene, std::string const& integrator, int spp) {
                b = rendered(scene, integrator, {.spp = spp, .seed = 2});
     double sum = 0;
     for (int y = 0; y < a.height(); ++y)
-        for (int x = 0; x < a.width(); ++x)
-            sum += square(a.mean(x, y).Y - b.mean(x, y).Y) / (2 * square(picture_mean(b)[1].mean));
-    return sum / (a.width() * a.height());
+        for (int x = 0; x < a.width(); ++x) sum += square(a.mean(x, y).Y - b.mean(x, y).Y);
+    return sum / (2 * square(picture_mean(b)[1].mean) * a.width() * a.height());
 }
 
 }  // namespace
